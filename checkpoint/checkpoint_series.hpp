@@ -1,0 +1,38 @@
+// The checkpoints of one case directory: ck-<step>.h5, the newest two.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "solver/state.hpp"
+
+namespace bedload {
+
+struct CheckpointPosition {
+  std::uint64_t step = 0;
+  bool finished = false;
+};
+
+class CheckpointSeries {
+ public:
+  using Say = std::function<void(const std::string&)>;   // told of every fall back and quarantine
+  CheckpointSeries(std::filesystem::path directory, int keep, Say say);
+
+  /// The newest checkpoint that is whole. Broken ones are renamed to ck-<step>.h5.broken and reported. Nothing if there
+  /// is none; Error corrupt if there were some and none is whole.
+  std::optional<State> newest();
+  /// Publishes ck-<step>.h5, then removes all but the newest `keep`, and stray temporary files.
+  void publish(const State&);
+
+ private:
+  std::filesystem::path directory_;
+  int keep_;
+  Say say_;
+};
+
+/// Step and finished flag of the newest whole checkpoint, without loading it all and without changing anything on disk.
+std::optional<CheckpointPosition> newest_position(const std::filesystem::path& directory);
+
+}  // namespace bedload

@@ -1,0 +1,31 @@
+// The flow that a case imposes: a staircase of holds, each held for one dwell.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace bedload {
+
+/// One staircase. Level k is held for `dwell` seconds, then level k+1 begins.
+struct FlowRamp {
+  enum class Kind { none, lid, pressure };                 // what moves the fluid
+  enum class Quantity { shields, lid_speed, gradient };    // what the levels count: [-], [m/s], [Pa/m]
+  Kind kind = Kind::none;
+  Quantity quantity = Quantity::shields;
+  std::vector<double> levels;
+  double dwell = 0;   // [s]
+};
+
+/// What one hold does to the box (numerics: "Shields number imposed").
+struct ImposedFlow {
+  double shields = 0;     // nominal [-]
+  double lid_speed = 0;   // [m/s]
+  double gradient = 0;    // driving force per mass of fluid along x, G [m/s2]
+};
+
+struct Scene;
+/// The lid speed and gradient that level `hold` means over a bed whose surface is at z_b [m].
+/// Lid: tau_b = rho_f nu U/(H - z_b). Pressure: tau_b = rho_f G (H - z_b), half of it under a lid at rest.
+ImposedFlow imposed_flow(const Scene&, std::uint64_t hold, double bed_height);
+
+}  // namespace bedload

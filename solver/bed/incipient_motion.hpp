@@ -1,0 +1,34 @@
+// Onset of motion: which grains move, and at which hold of a ramp the bed has begun to.
+#pragma once
+
+#include <string_view>
+
+#include "solver/bed/bed_record.hpp"
+#include "solver/scene.hpp"
+
+namespace bedload {
+
+enum class OnsetStatus { none, bracketed, censored_below, censored_above, noisy };
+std::string_view name_of(OnsetStatus);
+
+/// The threshold of one run: Shields numbers measured at the last still and the first moving hold.
+struct IncipientMotion {
+  OnsetStatus status = OnsetStatus::none;
+  double shields = 0;   // where the criterion crosses its value between the two, log-linear [-]; nan if not bracketed
+  double lower = 0;     // [-]; nan below a first hold that moves
+  double upper = 0;     // [-]; nan above a last hold that is still
+};
+
+/// Onset by ramp: the first hold k at or above `value` that k+1 confirms; pure function of the record.
+IncipientMotion incipient_motion(const BedRecord&, Onset::Criterion, double value);
+
+/// True when the ramp may end: onset confirmed and two more holds recorded, or every hold done.
+bool ramp_is_over(const BedRecord&, const Onset&, std::size_t ramp_levels);
+
+/// Number of surface grains, A phi_A/(pi d^2/4) with phi_A = 0.8.
+double surface_grains(const Scene&);
+
+/// Grain time scale t_d = max(sqrt(d/((s-1) g)), d/U_t) [s], U_t of the scene's own drag law.
+double grain_time(const FluidProperties&, const GrainProperties&, double gravity, DragLawName);
+
+}  // namespace bedload

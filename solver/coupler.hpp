@@ -1,0 +1,57 @@
+// One coupled step of fluid and grains.
+#pragma once
+
+#include <memory>
+
+#include "solver/scene.hpp"
+#include "solver/state.hpp"
+
+namespace bedload {
+
+/// How well a step went; judged in one place, never thrown.
+struct StepHealth {
+  double dt = 0;                // fluid step [s]
+  int substeps = 0;             // DEM steps in it
+  double cfl = 0;               // of the fluid [-]
+  double deepest_overlap = 0;   // of a grain contact, per diameter of the smaller grain [-]
+  double grain_travel = 0;      // farthest, per cell edge [-]
+  double divergence = 0;        // left after the projection, times the step [-]
+  int drag_iterations = 0, pressure_iterations = 0;
+  std::uint64_t void_clamps = 0;   // grains whose void fraction was clamped in the drag law
+  bool finite = true;
+};
+
+/// Momentum that changed hands in a step, as mean forces over it [N].
+struct StepBooks {
+  Vec3 on_grains;          // hydrodynamic force on all grains, fixed ones too (drag, pressure, viscous stress, kick)
+  Vec3 on_bottom;          // of the fluid on the bottom wall, drag booked to it included
+  Vec3 on_lid;             // of the fluid on the lid
+  Vec3 driving;            // G on the fluid (and on grains, Model A)
+  Vec3 contact_on_walls;   // of grains on walls
+};
+
+/// Wall seconds spent in each part of the step since construction, for benchmarks and the run's closing line.
+struct StepTimes {
+  double sample = 0, drag = 0, contacts = 0, deposit = 0, transport = 0, pressure = 0, total = 0;
+};
+
+class Coupler {
+ public:
+  explicit Coupler(const Scene&);
+  ~Coupler();
+
+  /// Advances fluid, grains, contacts and clock by one fluid step, at most `longest` seconds, under the lid speed and
+  /// gradient that state.search holds. Deterministic in State: scratch never outlives a step in meaning.
+  StepHealth step(State&, double longest);
+
+  const StepBooks& books() const;
+  const StepTimes& times() const;
+  /// Forgets all scratch (the amnesia test: must change no bit).
+  void forget();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace bedload

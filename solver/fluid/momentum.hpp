@@ -1,0 +1,22 @@
+// Transport of momentum by the volume flux, exactly conservative while the void fraction changes.
+#pragma once
+
+#include "solver/fluid/staggered_grid.hpp"
+
+namespace bedload {
+
+/// Scratch of transport(), kept between calls to save allocation.
+struct TransportScratch {
+  FaceFields face_source;
+  Field<Centre> divergence;
+  FaceFields result;
+};
+
+/// u_f = [eps_f u_f - dt sum F u_face/h]/eps'_f on every unknown face, with F the volume flux [m/s] whose divergence is
+/// -d(eps)/dt, averaged to the control volume of each face and corrected along the face's own direction so that a uniform
+/// flow stays uniform and momentum is conserved (numerics: "transport with exact momentum"); u_face by van Leer's TVD limiter.
+/// `velocity` has both ghost layers filled on entry and none on return.
+void transport(const StaggeredGrid&, const FaceFields& flux, const FaceFields& void_before, const FaceFields& void_after,
+               double dt, FaceFields& velocity, TransportScratch&);
+
+}  // namespace bedload

@@ -1,0 +1,23 @@
+// Gradient, divergence and Laplacian on the staggered grid, second order.
+#pragma once
+
+#include "solver/fluid/staggered_grid.hpp"
+
+namespace bedload {
+
+/// (grad q) on every unknown face; zero on walls. Reads one ghost layer of q.
+void gradient(const StaggeredGrid&, const Field<Centre>& q, FaceFields& out);
+
+/// div F on every cell; faces on walls count with the value they hold (zero for a flux). Reads face n.
+void divergence(const StaggeredGrid&, const FaceFields& flux, Field<Centre>& out);
+
+/// Laplacian of each component on every unknown face; zero on walls. Reads one filled ghost layer.
+void laplacian(const StaggeredGrid&, const FaceFields& velocity, FaceFields& out);
+
+/// Force of the fluid on the bottom and on the lid (or top) per rho_f: nu du/dz integrated over the wall [m4/s2], components x and y.
+struct WallShear {
+  Vec3 bottom, top;
+};
+WallShear wall_shear(const StaggeredGrid&, const FaceFields& velocity, double viscosity);
+
+}  // namespace bedload

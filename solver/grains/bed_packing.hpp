@@ -1,0 +1,45 @@
+// Making a bed: where the grains start, how they settle, when they are at rest.
+#pragma once
+
+#include <memory>
+
+#include "solver/grains/bed_scene.hpp"
+#include "solver/grains/contact_history.hpp"
+#include "solver/grains/grain_dynamics.hpp"
+#include "solver/grains/grains.hpp"
+
+namespace bedload {
+
+/// The grains before settling. Refuses (study_invalid) grains that do not fit the box, overlap in the table, share a place.
+Grains place_grains(const BedScene&);
+
+/// True when the source is settled by BedPacking (poured, lattice); a table's grains are left as they are.
+bool needs_settling(const BedScene&);
+
+/// One-way settling: submerged weight, linear (Stokes) drag to still fluid, contacts; until the mean kinetic energy per
+/// grain is below 1e-6 W' d and no grain is falling freely. Deterministic in (Grains, ContactHistory).
+class BedPacking {
+ public:
+  explicit BedPacking(const BedScene&);
+  ~BedPacking();
+  struct Progress {
+    double dt;               // advanced [s]
+    double energy;           // mean kinetic energy per grain / (W' d)
+    bool settled;
+  };
+  /// One interval of some tens of sub-steps; wraps positions into the box.
+  Progress advance(Grains&, ContactHistory&);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Gives ids in spatial order (by x-slab of one diameter, then y, then z), contacts with them: makes order of id = order of memory =
+/// (nearly) order in space. Deterministic in its input.
+void renumber_in_space(const BedScene&, Grains&, ContactHistory&);
+
+/// Young's modulus for stiffness = "auto" [Pa]: the rule of docs/decisions on stiffness.
+double automatic_young_modulus(const BedScene&, double bed_layers);
+
+}  // namespace bedload
