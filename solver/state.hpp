@@ -17,6 +17,18 @@ struct Clock {
   bool operator==(const Clock&) const = default;
 };
 
+/// Sums over a stretch of a hold: what a row of the record is made of.
+struct Window {
+  double duration = 0;             // so far [s]; 0 = not begun
+  double events = 0;               // times a grain passed another d/2 downstream [-]
+  double moving_time = 0;          // integral of the moving fraction [s]
+  double bed_impulse = 0;          // integral of the horizontal force of the fluid on grains and bottom [N s]
+  double outer_impulse = 0;        // integral of all horizontal forces from outside on fluid and grains [N s]
+  double bed_fluid_momentum = 0;   // of the fluid below z_b when the window began [kg m/s]
+  double momentum = 0;             // of all fluid and grains when the window began [kg m/s]
+  bool operator==(const Window&) const = default;
+};
+
 /// Where the experiment stands, and the sums of the hold under way.
 struct Search {
   enum Phase : std::uint64_t { packing = 0, holding = 1, finished = 2 };
@@ -25,20 +37,15 @@ struct Search {
   std::uint64_t hold_begun = 0;        // 1 once this hold's flow has been imposed
   double hold_start = 0;               // [s]
   double bed_height = 0;               // z_b when the hold began [m]
+  double shields = 0;                  // nominal, imposed now [-]
   double lid_speed = 0;                // imposed now [m/s]
   double gradient = 0;                 // imposed now [m/s2]
   double next_sample = 0;              // [s]
-  // over the last half of the hold:
-  double events = 0;                   // downstream displacements past d/2 [-]
-  double events_squared = 0;           // sum over blocks, for the standard error [-]
-  double block_events = 0;             // events of the block under way
-  double blocks = 0;                   // finished blocks
-  double moving_time = 0;              // integral of the moving fraction [s]
-  double force_time = 0;               // integral of horizontal force on grains + bottom wall [N s]
-  double fluid_momentum_start = 0;     // of the fluid below z_b when the last half began [kg m/s]
-  double averaged_time = 0;            // length of the last half so far [s]
-  double residual_time = 0;            // integral of |momentum residual| [N s]
-  double sample_events = 0;            // events since the last sample
+  Window half;                         // the last half of the hold
+  Window sample;                       // since the last sample
+  double blocks = 0;                   // finished parts of the last half [-]
+  double block_events = 0;             // events of the part under way [-]
+  double block_events_squared = 0;     // sum over finished parts, for the standard error [-]
   bool operator==(const Search&) const = default;
 };
 
@@ -87,19 +94,27 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("search/hold_begun", s.search.hold_begun, "1");
   visit("search/hold_start", s.search.hold_start, "s");
   visit("search/bed_height", s.search.bed_height, "m");
+  visit("search/shields", s.search.shields, "1");
   visit("search/lid_speed", s.search.lid_speed, "m/s");
   visit("search/gradient", s.search.gradient, "m/s2");
   visit("search/next_sample", s.search.next_sample, "s");
-  visit("search/events", s.search.events, "1");
-  visit("search/events_squared", s.search.events_squared, "1");
-  visit("search/block_events", s.search.block_events, "1");
+  visit("search/half/duration", s.search.half.duration, "s");
+  visit("search/half/events", s.search.half.events, "1");
+  visit("search/half/moving_time", s.search.half.moving_time, "s");
+  visit("search/half/bed_impulse", s.search.half.bed_impulse, "N s");
+  visit("search/half/outer_impulse", s.search.half.outer_impulse, "N s");
+  visit("search/half/bed_fluid_momentum", s.search.half.bed_fluid_momentum, "kg m/s");
+  visit("search/half/momentum", s.search.half.momentum, "kg m/s");
+  visit("search/sample/duration", s.search.sample.duration, "s");
+  visit("search/sample/events", s.search.sample.events, "1");
+  visit("search/sample/moving_time", s.search.sample.moving_time, "s");
+  visit("search/sample/bed_impulse", s.search.sample.bed_impulse, "N s");
+  visit("search/sample/outer_impulse", s.search.sample.outer_impulse, "N s");
+  visit("search/sample/bed_fluid_momentum", s.search.sample.bed_fluid_momentum, "kg m/s");
+  visit("search/sample/momentum", s.search.sample.momentum, "kg m/s");
   visit("search/blocks", s.search.blocks, "1");
-  visit("search/moving_time", s.search.moving_time, "s");
-  visit("search/force_time", s.search.force_time, "N s");
-  visit("search/fluid_momentum_start", s.search.fluid_momentum_start, "kg m/s");
-  visit("search/averaged_time", s.search.averaged_time, "s");
-  visit("search/residual_time", s.search.residual_time, "N s");
-  visit("search/sample_events", s.search.sample_events, "1");
+  visit("search/block_events", s.search.block_events, "1");
+  visit("search/block_events_squared", s.search.block_events_squared, "1");
 
   auto& p = s.record.samples;
   visit("record/samples/time", p.time, "s");
@@ -150,7 +165,7 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("record/tracks/vz", t.vz, "m/s");
 
   // A new member of State changes one of these sizes: list it above, then here.
-  static_assert(sizeof(Clock) == 2 * 8 && sizeof(Search) == 18 * 8);
+  static_assert(sizeof(Clock) == 2 * 8 && sizeof(Window) == 7 * 8 && sizeof(Search) == 12 * 8 + 2 * sizeof(Window));
   static_assert(sizeof(FluidState) == 4 * sizeof(Field<Centre>));
   static_assert(sizeof(Grains) == 8 * sizeof(std::vector<Vec3>) && sizeof(ContactHistory) == 3 * sizeof(std::vector<Vec3>));
   static_assert(sizeof(BedRecord) == (12 + 15 + 5 + 8) * sizeof(std::vector<double>));

@@ -11,10 +11,11 @@ namespace bedload {
 enum class OnsetStatus { none, bracketed, censored_below, censored_above, noisy };
 std::string_view name_of(OnsetStatus);
 
-/// The threshold of one run: Shields numbers measured at the last still and the first moving hold.
+/// The threshold of one run: Shields numbers measured at the last still and the first moving hold. Noisy = a hold moved
+/// and the next did not; then `lower` is the hold before that first stir and `upper` the later confirmed onset, if any.
 struct IncipientMotion {
   OnsetStatus status = OnsetStatus::none;
-  double shields = 0;   // where the criterion crosses its value between the two, log-linear [-]; nan if not bracketed
+  double shields = 0;   // where the criterion crosses its value between the two, log-linear [-]; nan without a confirmed onset above a still hold
   double lower = 0;     // [-]; nan below a first hold that moves
   double upper = 0;     // [-]; nan above a last hold that is still
 };
@@ -28,7 +29,8 @@ bool ramp_is_over(const BedRecord&, const Onset&, std::size_t ramp_levels);
 /// Number of surface grains, A phi_A/(pi d^2/4) with phi_A = 0.8.
 double surface_grains(const Scene&);
 
-/// Grain time scale t_d = max(sqrt(d/((s-1) g)), d/U_t) [s], U_t of the scene's own drag law.
-double grain_time(const FluidProperties&, const GrainProperties&, double gravity, DragLawName);
+/// Grain time scale t_d = max(sqrt(d/((s-1) g)), d/U_t) [s]; `terminal_speed` U_t [m/s] is that of the scene's own drag law
+/// (coupling/drag_laws), `density_ratio` s. Grains no heavier than the fluid have only d/U_t; 0 if neither is defined.
+double grain_time(double diameter, double density_ratio, double gravity, double terminal_speed);
 
 }  // namespace bedload

@@ -1,0 +1,48 @@
+// Results: what a finished case leaves in the database, a pure function of its scene and final state.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scheduler/database.hpp"
+#include "solver/scene.hpp"
+#include "solver/state.hpp"
+
+namespace bedload {
+
+/// Who a case is within its study.
+struct CaseIdentity {
+  std::string id;           // digest of the inputs
+  std::string label;        // of the case, e.g. "d0.5mm-rho2000-s1"
+  std::string set;          // digest of the inputs without the packing seed: the parameter set that its seeds share
+  std::string set_label;    // the label without the seed
+  std::uint64_t seed = 1;
+};
+
+/// One term of the model, with the ratio that decided it.
+struct ModelRow {
+  std::string term;
+  bool on = false;
+  double ratio = 0;      // [-]; nan if no number decided
+  std::string reason;    // one sentence
+};
+
+/// What made the numbers.
+struct Provenance {
+  std::string version;     // of bedload, with git sha
+  std::string compiler;    // name and version
+  std::string flags;       // of the compiler
+  std::string libraries;   // names and versions
+  std::string host;        // that finished the case
+};
+
+/// Creates the result tables and views that are not there yet.
+void create_result_tables(Database&);
+
+/// Replaces every row of the case and recomputes the threshold curve. The caller holds the transaction: results,
+/// the curve that rests on them and the case's state change together.
+void store_results(Database&, const CaseIdentity&, const Scene&, const State&, const std::vector<ModelRow>&,
+                   const Provenance&);
+
+}  // namespace bedload
