@@ -15,7 +15,8 @@ std::string_view name_of(OnsetStatus);
 /// and the next did not; then `lower` is the hold before that first stir and `upper` the later confirmed onset, if any.
 struct IncipientMotion {
   OnsetStatus status = OnsetStatus::none;
-  double shields = 0;   // where the criterion crosses its value between the two, log-linear [-]; nan without a confirmed onset above a still hold
+  double shields = 0;   // where the criterion passes its value between the last still and first moving hold, log-linear [-];
+                        // nan unless a moving hold is confirmed and has one before it
   double lower = 0;     // [-]; nan below a first hold that moves
   double upper = 0;     // [-]; nan above a last hold that is still
 };

@@ -1,0 +1,112 @@
+// Sphere slices, the half-density level, and the elevation seen from above.
+#include "solver/bed/bed_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace bedload {
+
+double slice_volume(double radius, double a, double b) noexcept {
+  a = std::clamp(a, -radius, radius);
+  b = std::clamp(b, -radius, radius);
+  return std::numbers::pi * (b - a) * (radius * radius - (a * a + a * b + b * b) / 3);
+}
+
+std::vector<double> solid_fraction(const Grains& grains, Vec3 length, std::size_t bins) {
+  std::vector<double> volume(bins);
+  const double bin = length.z / static_cast<double>(bins);
+  const auto layer = [&](double z) {
+    return static_cast<std::size_t>(std::clamp(z / bin, 0.0, static_cast<double>(bins - 1)));
+  };
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const double radius = grains.diameter[p] / 2, z = grains.position[p].z;
+    const std::size_t first = layer(z - radius), last = layer(z + radius);
+    for (std::size_t k = first; k <= last; ++k) {
+      const double below = k == first ? -radius : static_cast<double>(k) * bin - z;
+      const double above = k == last ? radius : static_cast<double>(k + 1) * bin - z;
+      volume[k] += slice_volume(radius, below, above);
+    }
+  }
+  for (double& v : volume) v /= length.x * length.y * bin;
+  return volume;
+}
+
+namespace {
+
+/// Mean phi between the levels that have a quarter and three quarters of the solid below them: deep enough to be
+/// free of the surface, high enough to be free of the layering at the bottom, and defined for any bed.
+double bulk_fraction(const std::vector<double>& phi) {
+  const double total = std::accumulate(phi.begin(), phi.end(), 0.0);
+  double below = 0, solid = 0, thickness = 0;
+  for (const double layer : phi) {
+    const double inside = std::min(below + layer, 0.75 * total) - std::max(below, 0.25 * total);
+    if (inside > 0) solid += inside, thickness += inside / layer;
+    below += layer;
+  }
+  return thickness > 0 ? solid / thickness : 0;
+}
+
+/// Highest level at which phi passes `half`, linear between the centres of the layers [layers].
+double highest_crossing(const std::vector<double>& phi, double half) {
+  for (std::size_t k = phi.size(); k-- > 0;) {
+    if (phi[k] < half) continue;
+    const double centre = static_cast<double>(k) + 0.5;
+    if (k + 1 == phi.size()) return static_cast<double>(phi.size());
+    return centre + (phi[k] - half) / (phi[k] - phi[k + 1]);
+  }
+  return 0;
+}
+
+/// Elevation of the highest grain surface above the middle of every column of about (d/2)^2; the bottom where there is none.
+std::vector<double> elevations(const Grains& grains, Vec3 length, double diameter) {
+  const auto columns = [&](double edge) { return std::max(1L, std::lround(2 * edge / diameter)); };
+  const long nx = columns(length.x), ny = columns(length.y);
+  const double hx = length.x / static_cast<double>(nx), hy = length.y / static_cast<double>(ny);
+  const auto wrapped = [](long i, long n) { return ((i % n) + n) % n; };
+  std::vector<double> top(static_cast<std::size_t>(nx * ny));
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const double radius = grains.diameter[p] / 2;
+    const Vec3 at = grains.position[p];
+    for (long i = std::lround((at.x - radius) / hx); (static_cast<double>(i) + 0.5) * hx < at.x + radius; ++i)
+      for (long j = std::lround((at.y - radius) / hy); (static_cast<double>(j) + 0.5) * hy < at.y + radius; ++j) {
+        const double x = (static_cast<double>(i) + 0.5) * hx - at.x, y = (static_cast<double>(j) + 0.5) * hy - at.y;
+        const double rise = radius * radius - x * x - y * y;
+        if (rise < 0) continue;
+        double& column = top[static_cast<std::size_t>(wrapped(i, nx) * ny + wrapped(j, ny))];
+        column = std::max(column, at.z + std::sqrt(rise));
+      }
+  }
+  return top;
+}
+
+double standard_deviation(const std::vector<double>& values) {
+  const double count = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  double squares = 0;
+  for (const double v : values) squares += (v - mean) * (v - mean);
+  return std::sqrt(squares / count);
+}
+
+}  // namespace
+
+BedSurface bed_surface(const Grains& grains, Vec3 length, double diameter) {
+  const auto bins = static_cast<std::size_t>(std::max(1L, std::lround(10 * length.z / diameter)));
+  const std::vector<double> phi = solid_fraction(grains, length, bins);
+  const double bulk = bulk_fraction(phi);
+  constexpr double loosest_bed = 0.1;
+  if (bulk < loosest_bed) return {};
+  return {.height = highest_crossing(phi, bulk / 2) * length.z / static_cast<double>(bins),
+          .roughness = standard_deviation(elevations(grains, length, diameter)),
+          .porosity = 1 - bulk};
+}
+
+double coordination(const ContactHistory& contacts, std::size_t grains) {
+  const auto first_wall = static_cast<std::uint32_t>(Wall::x_low);
+  const auto touching = std::count_if(contacts.higher.begin(), contacts.higher.end(),
+                                      [](std::uint32_t partner) { return partner < first_wall; });
+  return grains ? 2.0 * static_cast<double>(touching) / static_cast<double>(grains) : 0;
+}
+
+}  // namespace bedload

@@ -1,0 +1,33 @@
+// Where the bed ends and the flow begins: solid fraction by height, surface level, roughness, porosity.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/vec3.hpp"
+#include "solver/grains/contact_history.hpp"
+#include "solver/grains/grains.hpp"
+
+namespace bedload {
+
+/// Volume of a sphere of radius R about the origin between the planes z = a and z = b (a <= b), [m3]:
+/// pi [R^2 (b - a) + (a^3 - b^3)/3] with a, b cut to [-R, R].
+double slice_volume(double radius, double a, double b) noexcept;
+
+/// Horizontally averaged solid fraction phi [-] in `bins` equal layers of the box, from exact slices.
+/// Slices beyond bottom and top count in the outermost layers, so that the sum is the grains' volume.
+std::vector<double> solid_fraction(const Grains&, Vec3 length, std::size_t bins);
+
+struct BedSurface {
+  double height = 0;      // z_b [m]: highest level at which phi is half of the bulk's; 0 without a bed
+  double roughness = 0;   // standard deviation of the surface's elevation over columns of (d/2)^2 [m]
+  double porosity = 1;    // of the bulk: the layers that hold the middle half of the solid volume [-]
+};
+
+/// Surface of a bed of grains of mean diameter d [m]; layers of d/10. Layers looser than phi = 0.1 are no bed.
+BedSurface bed_surface(const Grains&, Vec3 length, double diameter);
+
+/// Mean number of grains that a grain touches; walls are not counted.
+double coordination(const ContactHistory&, std::size_t grains);
+
+}  // namespace bedload

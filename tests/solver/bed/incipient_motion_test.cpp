@@ -1,0 +1,124 @@
+// Every verdict of the onset rule, on records made by hand.
+#include "solver/bed/incipient_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <initializer_list>
+
+namespace bedload {
+namespace {
+
+constexpr double value = 1e-2;
+constexpr auto flux = Onset::Criterion::flux;
+
+/// A ramp whose hold k measured theta = 0.1 (k + 1) and the flux given.
+BedRecord ramp(std::initializer_list<double> fluxes) {
+  BedRecord record;
+  for (const double f : fluxes) {
+    const double k = double(record.holds.hold.size());
+    record.holds.hold.push_back(k);
+    record.holds.shields_measured.push_back(0.1 * (k + 1));
+    record.holds.flux.push_back(f);
+    record.holds.moving_fraction.push_back(0.01 * k);
+  }
+  return record;
+}
+
+TEST(IncipientMotion, IsBracketedByTheLastStillAndTheFirstConfirmedHold) {
+  const auto onset = incipient_motion(ramp({0, 1e-4, 1e-3, 3e-2, 8e-2, 0.2, 0.3}), flux, value);
+  EXPECT_EQ(onset.status, OnsetStatus::bracketed);
+  EXPECT_DOUBLE_EQ(onset.lower, 0.3);
+  EXPECT_DOUBLE_EQ(onset.upper, 0.4);
+}
+
+TEST(IncipientMotion, InterpolatesTheLogarithmOfTheFlux) {
+  const auto onset = incipient_motion(ramp({1e-3, 1e-1, 1}), flux, value);   // 1e-2 is half way in decades
+  EXPECT_NEAR(onset.shields, 0.15, 1e-12);
+}
+
+TEST(IncipientMotion, LiesInsideItsBracketWhenTheStillHoldCountedNothing) {
+  const auto onset = incipient_motion(ramp({0, 2e-2, 1}), flux, value);
+  EXPECT_GT(onset.shields, onset.lower);
+  EXPECT_LT(onset.shields, onset.upper);
+}
+
+TEST(IncipientMotion, AtTheValueItselfCountsAsMotion) {
+  EXPECT_EQ(incipient_motion(ramp({0, value, value}), flux, value).status, OnsetStatus::bracketed);
+}
+
+TEST(IncipientMotion, IsCensoredBelowWhenTheFirstHoldMoves) {
+  const auto onset = incipient_motion(ramp({2e-2, 3e-2, 4e-2, 5e-2}), flux, value);
+  EXPECT_EQ(onset.status, OnsetStatus::censored_below);
+  EXPECT_TRUE(std::isnan(onset.lower));
+  EXPECT_TRUE(std::isnan(onset.shields));
+  EXPECT_DOUBLE_EQ(onset.upper, 0.1);
+}
+
+TEST(IncipientMotion, IsCensoredAboveWhenNothingMoves) {
+  const auto onset = incipient_motion(ramp({0, 0, 1e-3}), flux, value);
+  EXPECT_EQ(onset.status, OnsetStatus::censored_above);
+  EXPECT_DOUBLE_EQ(onset.lower, 0.3);
+  EXPECT_TRUE(std::isnan(onset.upper));
+}
+
+TEST(IncipientMotion, IsCensoredAboveWhenOnlyTheLastHoldMoves) {
+  const auto onset = incipient_motion(ramp({0, 0, 2e-2}), flux, value);
+  EXPECT_EQ(onset.status, OnsetStatus::censored_above);
+  EXPECT_DOUBLE_EQ(onset.lower, 0.2);
+}
+
+TEST(IncipientMotion, IsNoisyWhenAHoldMovesAndTheNextRests) {
+  const auto onset = incipient_motion(ramp({0, 2e-2, 1e-3, 1e-3}), flux, value);
+  EXPECT_EQ(onset.status, OnsetStatus::noisy);
+  EXPECT_DOUBLE_EQ(onset.lower, 0.1);
+  EXPECT_TRUE(std::isnan(onset.upper));
+}
+
+TEST(IncipientMotion, SpansTheNoiseWhenALaterOnsetIsConfirmed) {
+  const auto onset = incipient_motion(ramp({0, 2e-2, 1e-3, 5e-2, 9e-2, 0.2, 0.3}), flux, value);
+  EXPECT_EQ(onset.status, OnsetStatus::noisy);
+  EXPECT_DOUBLE_EQ(onset.lower, 0.1);
+  EXPECT_DOUBLE_EQ(onset.upper, 0.4);
+  EXPECT_GT(onset.shields, 0.3);
+}
+
+TEST(IncipientMotion, OfARecordWithoutHoldsIsNone) {
+  EXPECT_EQ(incipient_motion({}, flux, value).status, OnsetStatus::none);
+}
+
+TEST(IncipientMotion, FollowsTheMovingFractionWhenThatIsTheCriterion) {
+  const auto onset = incipient_motion(ramp({0, 0, 0, 0, 0}), Onset::Criterion::moving_fraction, 0.025);   // 0, .01, .02, .03, .04
+  EXPECT_EQ(onset.status, OnsetStatus::bracketed);
+  EXPECT_DOUBLE_EQ(onset.upper, 0.4);
+}
+
+TEST(RampEnd, ComesTwoHoldsAfterTheOneThatConfirms) {
+  const Onset onset{.method = Onset::Method::ramp, .criterion = flux, .value = value};
+  EXPECT_FALSE(ramp_is_over(ramp({0, 2e-2, 3e-2, 4e-2}), onset, 12));
+  EXPECT_TRUE(ramp_is_over(ramp({0, 2e-2, 3e-2, 4e-2, 5e-2}), onset, 12));
+}
+
+TEST(RampEnd, ComesWithTheLastLevelWhateverMoved) {
+  const Onset onset{.method = Onset::Method::ramp, .criterion = flux, .value = value};
+  EXPECT_FALSE(ramp_is_over(ramp({0, 0}), onset, 3));
+  EXPECT_TRUE(ramp_is_over(ramp({0, 0, 0}), onset, 3));
+  EXPECT_FALSE(ramp_is_over(ramp({1, 1, 1, 1, 1}), {.method = Onset::Method::none}, 6));
+  EXPECT_TRUE(ramp_is_over(ramp({0}), {.method = Onset::Method::none}, 0));
+}
+
+TEST(GrainTime, IsTheSlowerOfInertiaAndSettling) {
+  EXPECT_NEAR(grain_time(1e-3, 2, 10, 1e3), 1e-2, 1e-12);    // sqrt(1e-3/10)
+  EXPECT_NEAR(grain_time(1e-3, 2, 10, 1e-3), 1, 1e-12);      // d/U_t
+  EXPECT_EQ(grain_time(1e-3, 1, 10, 0), 0);
+}
+
+TEST(SurfaceGrains, CoverFourFifthsOfTheBed) {
+  Scene scene;
+  scene.bed.grains.diameter = 1;
+  scene.bed.length = {20, 12, 13};
+  EXPECT_NEAR(surface_grains(scene), 244.46, 0.01);   // "244 surface grains" of a box 20 x 12 d
+}
+
+}  // namespace
+}  // namespace bedload
