@@ -75,6 +75,7 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("fluid/v", s.fluid.velocity.y, "m/s");
   visit("fluid/w", s.fluid.velocity.z, "m/s");
   visit("fluid/pressure", s.fluid.pressure, "m2/s2");
+  visit("fluid/column_gradient", s.fluid.column_gradient, "m/s2");
 
   visit("grains/position", s.grains.position, "m");
   visit("grains/velocity", s.grains.velocity, "m/s");
@@ -166,7 +167,7 @@ void State::each_field(Self& s, Visit&& visit) {
 
   // A new member of State changes one of these sizes: list it above, then here.
   static_assert(sizeof(Clock) == 2 * 8 && sizeof(Window) == 7 * 8 && sizeof(Search) == 12 * 8 + 2 * sizeof(Window));
-  static_assert(sizeof(FluidState) == 4 * sizeof(Field<Centre>));
+  static_assert(sizeof(FluidState) == 4 * sizeof(Field<Centre>) + 8);
   static_assert(sizeof(Grains) == 8 * sizeof(std::vector<Vec3>) && sizeof(ContactHistory) == 3 * sizeof(std::vector<Vec3>));
   static_assert(sizeof(BedRecord) == (12 + 15 + 5 + 8) * sizeof(std::vector<double>));
 }

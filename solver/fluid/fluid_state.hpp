@@ -14,6 +14,7 @@ struct FluidState {
 
   FaceFields velocity;      // u, v, w [m/s]
   Field<Centre> pressure;   // q [m2/s2]
+  double column_gradient = 0;   // uniform -dq/dz that keeps a z-periodic box free of net volume flux [m/s2]
 };
 
 }  // namespace bedload

@@ -1,0 +1,344 @@
+#include "solver/coupler.hpp"
+
+#include <chrono>
+
+#include "solver/coupling/hydrodynamic_forces.hpp"
+#include "solver/coupling/implicit_drag.hpp"
+#include "solver/coupling/mixture_response.hpp"
+#include "solver/fluid/boundaries.hpp"
+#include "solver/fluid/face_loops.hpp"
+#include "solver/fluid/momentum.hpp"
+#include "solver/fluid/operators.hpp"
+#include "solver/fluid/pressure_projection.hpp"
+#include "solver/grains/grain_dynamics.hpp"
+
+namespace bedload {
+namespace {
+
+constexpr double largest_cfl = 0.5;
+constexpr double largest_grain_travel = 0.2;       // of a cell edge
+constexpr double largest_relaxation = 200;         // a = beta T/M of any grain
+constexpr double explicit_viscosity_limit = 1.0 / 12;
+constexpr double pressure_tolerance = 1e-4;        // of the divergence the projection starts with; momentum does not depend on it
+constexpr double least_divergence = 1e-9;          // volume change per step that is not worth an iteration
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  double& sum_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+double wrapped(double x, double length) {
+  x -= length * std::floor(x / length);
+  return x < length ? x : 0;   // rounding of a tiny negative x
+}
+
+}  // namespace
+
+struct Coupler::Parts {
+  explicit Parts(const Scene& given)
+      : scene(given), grid(given.grid), law(drag_law(given.drag)), dynamics(given.bed), drag(grid), pressure(grid), before(grid), after(grid),
+        acceleration(grid), laplace(grid), impulse(grid), flux(grid), solid_flux(grid), response(grid), rhs(grid), correction(grid), kick(grid) {}
+
+  const Scene scene;
+  const StaggeredGrid grid;
+  const DragLaw law;
+  GrainDynamics dynamics;
+  ImplicitDrag drag;
+  PressureSolver pressure;
+
+  // Scratch; `stencils` and `before` belong to `positions` and are kept when the state still has them.
+  std::vector<Vec3> positions;
+  std::vector<Stencil> stencils;
+  VoidFraction before, after;
+  FaceFields acceleration, laplace, impulse, flux, solid_flux;
+  MixtureResponse response;
+  Field<Centre> rhs, correction;
+  FaceFields kick;
+  TransportScratch transport_scratch;
+  FlowAtGrains flow;
+  std::vector<double> exchange, relaxation;
+  std::vector<Vec3> ballistic, flow_velocity, push, moved;
+
+  StepBooks books;
+  StepTimes times;
+  StepHealth health;
+
+  bool model_b() const { return scene.terms.model_b(); }
+  double specific_mass(const Grains& g, std::size_t p) const { return sphere_volume(g.diameter[p]) * g.density[p] / scene.bed.fluid.density; }
+  /// -dp/dx that drives the fluid, and the uniform gradient that holds back the net flux of a z-periodic box [m/s2].
+  Vec3 drive(const State& s) const { return {s.search.gradient, 0, s.fluid.column_gradient}; }
+
+  void place_on_grid(const Grains&);
+  void accelerate_faces(State&);
+  void sample_at_grains(const State&);
+  double choose_step(const State&, double longest);
+  void solve_drag(State&, double dt);
+  void move_grains(State&, double dt);
+  void deposit_at_new_positions(const State&, double dt);
+  void transport_momentum(State&, double dt);
+  void project(State&, double dt);
+  void hold_back_net_flux(State&);
+  void kick_mixture(State&, double dt);
+  Vec3 weight(double density) const;
+};
+
+Coupler::Coupler(const Scene& scene) : parts_(std::make_unique<Parts>(scene)) {}
+Coupler::~Coupler() = default;
+const StepBooks& Coupler::books() const { return parts_->books; }
+const StepTimes& Coupler::times() const { return parts_->times; }
+void Coupler::forget() { parts_ = std::make_unique<Parts>(parts_->scene); }
+
+StepHealth Coupler::step(State& state, double longest) {
+  Parts& parts = *parts_;
+  Stopwatch watch(parts.times.total);
+  parts.health = {};
+  parts.books = {};
+  parts.place_on_grid(state.grains);
+  parts.accelerate_faces(state);
+  parts.sample_at_grains(state);
+  const double dt = parts.choose_step(state, longest);
+  parts.solve_drag(state, dt);
+  parts.move_grains(state, dt);
+  parts.deposit_at_new_positions(state, dt);
+  parts.transport_momentum(state, dt);
+  parts.project(state, dt);
+  ++state.clock.step;
+  state.clock.time += dt;
+  return parts.health;
+}
+
+/// Void fraction and stencils of x^n; those of the last step serve when nothing has moved since.
+void Coupler::Parts::place_on_grid(const Grains& grains) {
+  Stopwatch watch(times.deposit);
+  if (positions == grains.position) return;
+  find_stencils(grid, grains, stencils);
+  deposit_void_fraction(grid, grains, stencils, before);
+  fill_face_ghosts(grid, before.face);
+  positions = grains.position;
+}
+
+/// a_f = -grad q + nu lap u + G, and the volume flux eps u + J of the start of the step.
+void Coupler::Parts::accelerate_faces(State& state) {
+  Stopwatch watch(times.transport);
+  FaceFields& u = state.fluid.velocity;
+  fill_velocity_ghosts(grid, u, state.search.lid_speed);
+  fill_centre_ghosts(grid, state.fluid.pressure);
+  gradient(grid, state.fluid.pressure, acceleration);
+  laplacian(grid, u, laplace);
+  deposit_solid_flux(grid, state.grains, stencils, flux);
+  clear_walls(grid, flux);
+  const double nu = scene.bed.fluid.viscosity;
+  for (int c = 0; c < 3; ++c) {
+    double *a = acceleration.component(c), *f = flux.component(c);
+    const double *lap = laplace.component(c), *eps = before.face.component(c), *v = u.component(c);
+    const double g = drive(state)[c];
+    for_each_unknown_face(grid, c, [&](std::size_t n) {
+      a[n] = -a[n] + nu * lap[n] + g;
+      f[n] += eps[n] * v[n];
+    });
+  }
+  clear_walls(grid, acceleration);
+  const WallShear shear = wall_shear(grid, u, nu);
+  const double rho = scene.bed.fluid.density;
+  books.on_bottom = rho * shear.bottom, books.on_lid = rho * shear.top;
+  const Vec3 box = grid.length();
+  books.driving = rho * box.x * box.y * box.z * drive(state);
+}
+
+void Coupler::Parts::sample_at_grains(const State& state) {
+  Stopwatch watch(times.sample);
+  sample_flow(state.grains, stencils, state.fluid.velocity, acceleration, before.centre, law, scene.bed.fluid.viscosity, scene.terms, flow);
+  health.void_clamps = flow.void_clamps;
+}
+
+/// The longest step, in whole DEM steps, that every limit allows (docs/physics_coupling.md, "The fluid step").
+double Coupler::Parts::choose_step(const State& state, double longest) {
+  const FaceFields& u = state.fluid.velocity;
+  double rate = 0;
+  for (int c = 0; c < 3; ++c) {
+    double fastest = 0;
+    for_each_unknown_face(grid, c, [&, v = u.component(c)](std::size_t n) { fastest = std::max(fastest, std::abs(v[n])); });
+    rate += fastest / grid.h[c];
+  }
+  double step = std::min(longest, rate > 0 ? largest_cfl / rate : longest);
+
+  double fastest = 0;
+  bool any_mobile = false;
+  for (std::size_t p = 0; p < state.grains.size(); ++p) {
+    if (state.grains.fixed[p]) continue;
+    any_mobile = true;
+    fastest = std::max(fastest, norm(state.grains.velocity[p]));
+    if (flow.drag[p] > 0) step = std::min(step, largest_relaxation * specific_mass(state.grains, p) / flow.drag[p]);
+  }
+  health.cfl = step * rate;
+  if (!any_mobile) {
+    health.substeps = 0;
+    return health.dt = step;
+  }
+  const GrainProperties& g = scene.bed.grains;
+  const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
+  if (fastest > 0) {
+    step = std::min(step, largest_grain_travel * shortest_edge / fastest);
+    step = std::min(step, 0.5 * contact_time(g.diameter * (1 - 2 * g.spread), g.density, g.young_modulus, g.poisson, fastest));
+  }
+  const double dem = scene.bed.dem_step;
+  health.substeps = std::max(1, static_cast<int>(step / dem * (1 + 1e-12)));
+  return health.dt = std::min(step, health.substeps * dem);
+}
+
+Vec3 Coupler::Parts::weight(double density) const {
+  return scene.terms.buoyancy ? (1 - scene.bed.fluid.density / density) * scene.bed.gravity : scene.bed.gravity;
+}
+
+/// Ballistic velocities, then the one implicit drag solve of the step; leaves the grains' constant push.
+void Coupler::Parts::solve_drag(State& state, double dt) {
+  Stopwatch watch(times.drag);
+  const Grains& grains = state.grains;
+  const double rho = scene.bed.fluid.density, nu = scene.bed.fluid.viscosity;
+  const std::size_t count = grains.size();
+  exchange.resize(count), relaxation.resize(count), ballistic.resize(count), flow_velocity.resize(count), push.resize(count);
+  for (std::size_t p = 0; p < count; ++p) {
+    exchange[p] = flow.drag[p] * dt / grid.cell_volume();
+    relaxation[p] = 0, ballistic[p] = {}, push[p] = {};
+    if (grains.fixed[p]) continue;
+    const double mass = specific_mass(grains, p);
+    relaxation[p] = flow.drag[p] * dt / mass;
+    push[p] = weight(grains.density[p]);
+    if (!model_b()) push[p] += rho / grains.density[p] * flow.acceleration[p];
+    ballistic[p] = grains.velocity[p] + dt * (push[p] + grains.mean_contact_force[p] / (rho * mass));
+  }
+  for (int c = 0; c < 3; ++c) {
+    double* b = impulse.component(c);
+    const double *a = acceleration.component(c), *eps = before.face.component(c);
+    for_each_unknown_face(grid, c, [&](std::size_t n) { b[n] = dt * a[n] * (model_b() ? 1 : eps[n]); });
+  }
+  const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
+  const bool implicit = nu * dt > explicit_viscosity_limit * shortest_edge * shortest_edge;
+  health.drag_iterations = drag.solve(grid, {stencils, exchange, relaxation, ballistic, implicit ? nu * dt : 0}, before.face, impulse,
+                                      state.fluid.velocity, flow_velocity);
+  Vec3 on_grains;
+  for (std::size_t p = 0; p < count; ++p) {
+    const Vec3 force = flow.drag[p] / (1 + relaxation[p]) * (flow_velocity[p] - ballistic[p]);   // per rho_f
+    on_grains += force;
+    if (!model_b()) on_grains += sphere_volume(grains.diameter[p]) * flow.acceleration[p];
+    if (!grains.fixed[p]) push[p] += force / specific_mass(grains, p);
+  }
+  books.on_grains = rho * on_grains;
+  if (implicit) {
+    const WallShear more = wall_shear(grid, drag.change(), nu);
+    books.on_bottom += rho * more.bottom, books.on_lid += rho * more.top;
+  }
+}
+
+/// Sub-steps of {contacts, motion} under the constant push; drag does not change within them.
+void Coupler::Parts::move_grains(State& state, double dt) {
+  Stopwatch watch(times.contacts);
+  Grains& grains = state.grains;
+  moved.assign(grains.size(), {});
+  if (health.substeps == 0) return;
+  const GrainHealth contact = dynamics.advance(grains, state.contacts, push, {}, dt / health.substeps, health.substeps, state.search.lid_speed);
+  health.deepest_overlap = contact.deepest_overlap;
+  books.contact_on_walls = contact.force_on_walls;
+  const Vec3 length = scene.bed.length;
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    Vec3& x = grains.position[p];
+    moved[p] = x - positions[p];
+    for (int c = 0; c < 3; ++c) {
+      health.grain_travel = std::max(health.grain_travel, std::abs(moved[p][c]) / grid.h[c]);
+      if (grid.periodic(c)) x[c] = wrapped(x[c], length[c]);
+      if (!std::isfinite(x[c])) health.finite = false;
+    }
+  }
+}
+
+/// The flux that transport needs, then everything that belongs to x^{n+1}.
+void Coupler::Parts::deposit_at_new_positions(const State& state, double dt) {
+  Stopwatch watch(times.deposit);
+  if (!health.finite) return;
+  const Grains& grains = state.grains;
+  deposit_swept_flux(grid, grains, positions, moved, dt, solid_flux);
+  for (int c = 0; c < 3; ++c)
+    for_each_unknown_face(grid, c, [f = flux.component(c), j = solid_flux.component(c)](std::size_t n) { f[n] -= j[n]; });
+  fill_face_ghosts(grid, flux);
+
+  find_stencils(grid, grains, stencils);
+  deposit_void_fraction(grid, grains, stencils, after);
+  fill_face_ghosts(grid, after.face);
+  deposit_solid_flux(grid, grains, stencils, solid_flux);
+  find_mixture_response(grid, grains, stencils, exchange, scene.bed.fluid.density, after.face, model_b(), response);
+}
+
+void Coupler::Parts::transport_momentum(State& state, double dt) {
+  Stopwatch watch(times.transport);
+  if (!health.finite) return;
+  fill_velocity_ghosts(grid, state.fluid.velocity, state.search.lid_speed);
+  transport(grid, flux, before.face, after.face, dt, state.fluid.velocity, transport_scratch);
+  std::swap(before, after);
+  positions = state.grains.position;
+}
+
+/// Makes div(eps u + J) vanish at the new instant: fluid and mobile grains give way to the pressure together.
+void Coupler::Parts::project(State& state, double dt) {
+  Stopwatch watch(times.pressure);
+  if (!health.finite) return;
+  clear_walls(grid, solid_flux);
+  for (int c = 0; c < 3; ++c) {
+    double* f = solid_flux.component(c);
+    const double *eps = before.face.component(c), *u = state.fluid.velocity.component(c);
+    for_each_unknown_face(grid, c, [&](std::size_t n) { f[n] = (f[n] + eps[n] * u[n]) / dt; });
+  }
+  fill_face_ghosts(grid, solid_flux);
+  fill_face_ghosts(grid, response.coefficient);
+  divergence(grid, solid_flux, rhs);
+  std::fill(correction.values.begin(), correction.values.end(), 0.0);
+  const PressureSolve solve = pressure.solve(response.coefficient, rhs, correction, pressure_tolerance, least_divergence / (dt * dt));
+  health.pressure_iterations = solve.iterations;
+  health.divergence = solve.residual;
+  gradient(grid, correction, kick);
+  hold_back_net_flux(state);
+  kick_mixture(state, dt);
+  for (std::size_t n = 0; n < correction.values.size(); ++n) state.fluid.pressure[n] += correction[n];
+  for (double x : state.fluid.velocity.x.values) health.finite &= std::isfinite(x);
+}
+
+/// In a box without bottom or top, weight is borne by a uniform gradient: the one that lets no net volume pass.
+void Coupler::Parts::hold_back_net_flux(State& state) {
+  if (!grid.periodic(2) || scene.bed.gravity.z == 0) return;
+  double* const gradient_z = kick.component(2);
+  const double *f = solid_flux.component(2), *both = response.coefficient.component(2);
+  const double net = sum_over_faces(grid, 2, [=](std::size_t n) { return f[n] - both[n] * gradient_z[n]; });
+  const double uniform = net / sum_over_faces(grid, 2, [=](std::size_t n) { return both[n]; });
+  for_each_unknown_face(grid, 2, [=](std::size_t n) { gradient_z[n] += uniform; });
+  state.fluid.column_gradient -= uniform;
+}
+
+/// u_f -= T cf (grad dq)_f; v_p -= T sum w cp grad dq for every grain that is not fixed.
+void Coupler::Parts::kick_mixture(State& state, double dt) {
+  const double rho = scene.bed.fluid.density;
+  Vec3 on_fixed;
+  for (int c = 0; c < 3; ++c) {
+    double *k = kick.component(c), *u = state.fluid.velocity.component(c);
+    const double *cf = response.fluid.component(c), *cp = response.grains.component(c), *locked = response.locked_exchange.component(c),
+                 *eps = before.face.component(c), *phi = response.mobile_fraction.component(c);
+    on_fixed[c] = sum_over_faces(grid, c, [&](std::size_t n) { return -k[n] * (locked[n] * cf[n] + (model_b() ? 0 : 1 - eps[n] - phi[n])); });
+    for_each_unknown_face(grid, c, [&](std::size_t n) {
+      u[n] -= dt * cf[n] * k[n];
+      k[n] *= cp[n];
+    });
+  }
+  books.on_grains += rho * grid.cell_volume() * on_fixed;
+  if (health.substeps == 0) return;
+  for (std::size_t p = 0; p < state.grains.size(); ++p) {
+    if (state.grains.fixed[p]) continue;
+    const Vec3 change = -sample(stencils[p], kick);
+    state.grains.velocity[p] += dt * change;
+    books.on_grains += rho * specific_mass(state.grains, p) * change;
+  }
+}
+
+}  // namespace bedload

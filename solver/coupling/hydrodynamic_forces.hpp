@@ -1,0 +1,25 @@
+// What each grain feels of the flow at the start of a step.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/coupling/drag_laws.hpp"
+#include "solver/coupling/void_fraction.hpp"
+
+namespace bedload {
+
+/// By id. Forces are per fluid density ("kinematic": N / (kg/m3) = m4/s2).
+struct FlowAtGrains {
+  std::vector<Vec3> velocity;        // u at the grain [m/s]
+  std::vector<Vec3> acceleration;    // -grad q + nu lap u + G at the grain [m/s2]
+  std::vector<double> drag;          // beta/rho_f: drag force per slip and fluid density [m3/s]; divided by eps in Model B
+  std::uint64_t void_clamps = 0;     // grains whose void fraction lay outside [0.26, 1]
+};
+
+/// Samples the flow with each grain's own weights and evaluates f_d = 3 pi mu d F(eps, Re) eps w, Re = eps |w| d/nu.
+void sample_flow(const Grains&, std::span<const Stencil>, const FaceFields& velocity, const FaceFields& acceleration,
+                 const Field<Centre>& void_fraction, const DragLaw&, double viscosity, const Terms&, FlowAtGrains&);
+
+}  // namespace bedload

@@ -1,0 +1,116 @@
+#include "solver/coupling/implicit_drag.hpp"
+
+#include "solver/fluid/boundaries.hpp"
+#include "solver/fluid/face_loops.hpp"
+#include "solver/fluid/operators.hpp"
+
+namespace bedload {
+namespace {
+
+constexpr int most_iterations = 500;
+
+void clear(FaceFields& f) {
+  for (int c = 0; c < 3; ++c) std::fill_n(f.component(c), f.x.values.size(), 0.0);
+}
+
+double inner(const StaggeredGrid& g, const FaceFields& a, const FaceFields& b) {
+  double total = 0;
+  for (int c = 0; c < 3; ++c)
+    total += sum_over_faces(g, c, [x = a.component(c), y = b.component(c)](std::size_t n) { return x[n] * y[n]; });
+  return total;
+}
+
+double inner_scaled(const StaggeredGrid& g, const FaceFields& a, const FaceFields& scale) {
+  double total = 0;
+  for (int c = 0; c < 3; ++c)
+    total += sum_over_faces(g, c, [x = a.component(c), d = scale.component(c)](std::size_t n) { return x[n] * x[n] / d[n]; });
+  return total;
+}
+
+}  // namespace
+
+ImplicitDrag::ImplicitDrag(const StaggeredGrid& g)
+    : exchange_(g), diagonal_(g), residual_(g), direction_(g), image_(g), change_(g), laplacian_(g) {}
+
+/// Fills B, the diagonal and the first residual (that of u* = u^n); returns b_max.
+double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction, const FaceFields& impulse,
+                           const FaceFields& velocity) {
+  clear(exchange_), clear(diagonal_), clear(residual_);
+  for (std::size_t p = 0; p < problem.stencils.size(); ++p) {
+    const Stencil& s = problem.stencils[p];
+    const double k = problem.exchange[p], shared = k * problem.relaxation[p] / (1 + problem.relaxation[p]);
+    const Vec3 given = shared * sample(s, velocity) + k / (1 + problem.relaxation[p]) * problem.ballistic[p];
+    deposit(s, {k, k, k}, exchange_);
+    deposit(s, given, residual_);
+    const auto share_diagonal = [shared](double* d) { return [d, shared](std::int32_t n, double w) { d[n] -= w * w * shared; }; };
+    if (shared == 0) continue;
+    for_each_face<0>(s, share_diagonal(diagonal_.component(0)));
+    for_each_face<1>(s, share_diagonal(diagonal_.component(1)));
+    for_each_face<2>(s, share_diagonal(diagonal_.component(2)));
+  }
+  const Vec3 h = g.h;
+  const double viscous = problem.implicit_viscosity * 2 * (1 / (h.x * h.x) + 1 / (h.y * h.y) + 1 / (h.z * h.z));
+  double b_max = 0;
+  for (int c = 0; c < 3; ++c) {
+    double *d = diagonal_.component(c), *r = residual_.component(c);
+    const double *b = exchange_.component(c), *eps = void_fraction.component(c), *t = impulse.component(c), *u = velocity.component(c);
+    for_each_unknown_face(g, c, [&](std::size_t n) {
+      d[n] += eps[n] + b[n] + viscous;
+      r[n] += t[n] - b[n] * u[n];
+      b_max = std::max(b_max, b[n] / eps[n]);
+    });
+  }
+  return b_max;
+}
+
+void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction, FaceFields& x, FaceFields& out) {
+  clear(out);
+  for (std::size_t p = 0; p < problem.stencils.size(); ++p) {
+    const double a = problem.relaxation[p];
+    if (a == 0) continue;
+    deposit(problem.stencils[p], -problem.exchange[p] * a / (1 + a) * sample(problem.stencils[p], x), out);
+  }
+  if (problem.implicit_viscosity > 0) {
+    fill_velocity_ghosts(g, x, 0);
+    laplacian(g, x, laplacian_);
+  }
+  for (int c = 0; c < 3; ++c) {
+    double* y = out.component(c);
+    const double *eps = void_fraction.component(c), *b = exchange_.component(c), *v = x.component(c), *l = laplacian_.component(c);
+    for_each_unknown_face(g, c, [&](std::size_t n) { y[n] += (eps[n] + b[n]) * v[n] - problem.implicit_viscosity * l[n]; });
+  }
+}
+
+int ImplicitDrag::solve(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction, const FaceFields& impulse,
+                        FaceFields& velocity, std::span<Vec3> flow_velocity) {
+  const double b_max = start(g, problem, void_fraction, impulse, velocity);
+  const auto each = [&](auto&& visit) { for (int c = 0; c < 3; ++c) for_each_unknown_face(g, c, [&](std::size_t n) { visit(c, n); }); };
+  clear(change_), clear(direction_), clear(laplacian_);
+  const double first = inner(g, residual_, residual_);
+  const double goal = first * (0.01 / (1 + b_max)) * (0.01 / (1 + b_max));
+  double weighted = inner_scaled(g, residual_, diagonal_), left = first, beta = 0;
+  int iterations = 0;
+  while (left > goal && iterations < most_iterations) {
+    each([&](int c, std::size_t n) {
+      double& d = direction_.component(c)[n];
+      d = residual_.component(c)[n] / diagonal_.component(c)[n] + beta * d;
+    });
+    apply(g, problem, void_fraction, direction_, image_);
+    const double step = weighted / inner(g, direction_, image_);
+    each([&](int c, std::size_t n) {
+      change_.component(c)[n] += step * direction_.component(c)[n];
+      residual_.component(c)[n] -= step * image_.component(c)[n];
+    });
+    const double next = inner_scaled(g, residual_, diagonal_);
+    beta = next / weighted, weighted = next;
+    left = inner(g, residual_, residual_);
+    ++iterations;
+  }
+  each([&](int c, std::size_t n) { velocity.component(c)[n] += change_.component(c)[n]; });
+  for (std::size_t p = 0; p < problem.stencils.size(); ++p) flow_velocity[p] = sample(problem.stencils[p], velocity);
+  each([&](int c, std::size_t n) { velocity.component(c)[n] += residual_.component(c)[n] / void_fraction.component(c)[n]; });
+  if (problem.implicit_viscosity > 0) fill_velocity_ghosts(g, change_, 0);
+  return iterations;
+}
+
+}  // namespace bedload

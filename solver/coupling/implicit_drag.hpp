@@ -1,0 +1,43 @@
+// The coupled drag solve: fluid and grains brought to one velocity field by drag, implicitly, once per fluid step.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/coupling/void_fraction.hpp"
+
+namespace bedload {
+
+/// One step's drag problem (docs/physics_coupling.md). Per grain, by id:
+///   exchange K = beta_p T/(rho_f V_c) [-], relaxation a = beta_p T/M [-] (0 for fixed grains), ballistic velocity vt [m/s].
+struct DragProblem {
+  std::span<const Stencil> stencils;
+  std::span<const double> exchange, relaxation;
+  std::span<const Vec3> ballistic;
+  double implicit_viscosity = 0;   // T nu [m2], or 0 where viscosity is explicit
+};
+
+/// Solves, for the change of velocity since u^n,
+///   (eps_f + B_f) u*_f - sum_p w_pf K [a/(1+a)] (sum_g w_pg u*_g) - T nu lap(u* - u^n) = eps_f u^n_f + T b_f + sum_p w_pf K vt_p/(1+a)
+/// by conjugate gradients (symmetric positive definite, diagonal preconditioner) to |r| < 0.01/(1 + b_max) |r_0|, b_max = max B/eps.
+class ImplicitDrag {
+ public:
+  explicit ImplicitDrag(const StaggeredGrid&);
+
+  /// `impulse` = T b_f on entry (b = eps a or a, in Model A or B). On return `velocity` (u^n on entry) holds u* + r/eps, in
+  /// which the momentum given to the grains by drag is missing exactly, and `flow_velocity` u* sampled at the grains.
+  /// Returns the number of iterations.
+  int solve(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction, const FaceFields& impulse,
+            FaceFields& velocity, std::span<Vec3> flow_velocity);
+
+  /// u* - u^n of the last solve; its ghosts are filled where viscosity was implicit.
+  const FaceFields& change() const { return change_; }
+
+ private:
+  void apply(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction, FaceFields& x, FaceFields& out);
+  double start(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction, const FaceFields& impulse, const FaceFields& velocity);
+
+  FaceFields exchange_, diagonal_, residual_, direction_, image_, change_, laplacian_;
+};
+
+}  // namespace bedload

@@ -1,0 +1,34 @@
+// Grains on the grid: void fraction, flux of solid, and the flux that carries one set of positions into the next.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/coupling/kernel.hpp"
+#include "solver/grains/grains.hpp"
+
+namespace bedload {
+
+/// The stencils of all grains, by id. Positions lie inside the box.
+void find_stencils(const StaggeredGrid&, const Grains&, std::vector<Stencil>& stencils);
+
+/// eps on centres and on faces: 1 - sum V_p w/V_c, in order of id. On the faces of walls only the change in time has a meaning
+/// (half a control volume).
+struct VoidFraction {
+  VoidFraction() = default;
+  explicit VoidFraction(const StaggeredGrid& g) : centre(g, 1), face(g, 1) {}
+  Field<Centre> centre;
+  FaceFields face;
+};
+void deposit_void_fraction(const StaggeredGrid&, const Grains&, std::span<const Stencil>, VoidFraction&);
+
+/// J = sum V_p v_p w/V_c on faces [m/s].
+void deposit_solid_flux(const StaggeredGrid&, const Grains&, std::span<const Stencil>, FaceFields& flux);
+
+/// The mean flux over a step that moves solid from `before` (inside the box) by `moved`: the charge-conserving deposit of
+/// Esirkepov 2001 (Comput. Phys. Commun. 135, 144) for these splines, div J dt = phi_before - phi_after to round-off.
+/// Needs every |moved| below one cell edge.
+void deposit_swept_flux(const StaggeredGrid&, const Grains&, std::span<const Vec3> before, std::span<const Vec3> moved,
+                        double dt, FaceFields& flux);
+
+}  // namespace bedload
