@@ -1,0 +1,112 @@
+// The hierarchy of levels and the V-cycle through it.
+#include "solver/fluid/multigrid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/fluid/coarsest_solve.hpp"
+#include "solver/fluid/multigrid_level.hpp"
+
+namespace bedload {
+namespace {
+
+constexpr int directly_solved = 64;   // cells
+
+using Ratio = std::array<int, 3>;
+
+/// Along which directions to pair cells: those whose edge is within sqrt(2) of the shortest (couplings go with 1/h^2).
+Ratio coarsening(const std::array<int, 3>& cells, const Vec3& h) {
+  double shortest = 0;
+  for (int c = 0; c < 3; ++c)
+    if (cells[c] > 1 && (shortest == 0 || h[c] < shortest)) shortest = h[c];
+  Ratio ratio{1, 1, 1};
+  for (int c = 0; c < 3; ++c)
+    if (cells[c] > 1 && h[c] < 1.42 * shortest) ratio[c] = 2;
+  return ratio;
+}
+
+}  // namespace
+
+struct Multigrid::Hierarchy {
+  explicit Hierarchy(const StaggeredGrid& g) : grid(g) {
+    const std::array<bool, 3> periodic{g.periodic(0), g.periodic(1), g.periodic(2)};
+    std::array<int, 3> cells = g.cells;
+    Vec3 h = g.h;
+    levels.emplace_back(cells, periodic);
+    while (levels.back().cell_count() > directly_solved) {
+      ratios.push_back(coarsening(cells, h));
+      for (int c = 0; c < 3; ++c) {
+        cells[c] = (cells[c] + ratios.back()[c] - 1) / ratios.back()[c];
+        h[c] *= ratios.back()[c];
+      }
+      levels.emplace_back(cells, periodic);
+    }
+    on_coarsest.resize(levels.back().cell_count());
+  }
+
+  void cycle(std::size_t l) noexcept {
+    if (l + 1 == levels.size()) return solve_coarsest();
+    levels[l].smooth_from_zero();
+    levels[l].restrict_residual(levels[l + 1], ratios[l]);
+    cycle(l + 1);
+    levels[l].add_correction(levels[l + 1], ratios[l]);
+    levels[l].smooth_in_reverse();
+  }
+
+  template <class Body>
+  void for_each_coarsest_cell(Body&& body) noexcept {
+    const auto [nx, ny, nz] = levels.back().cells();
+    int n = 0;
+    for (int i = 0; i < nx; ++i)
+      for (int j = 0; j < ny; ++j)
+        for (int k = 0; k < nz; ++k) body(i, j, k, on_coarsest[n++]);
+  }
+
+  void solve_coarsest() noexcept {
+    MultigridLevel& level = levels.back();
+    for_each_coarsest_cell([&](int i, int j, int k, double& x) { x = level.right_hand_side(i, j, k); });
+    coarsest.solve(on_coarsest.data());
+    for_each_coarsest_cell([&](int i, int j, int k, double& x) { level.solution(i, j, k) = static_cast<float>(x); });
+  }
+
+  StaggeredGrid grid;
+  std::vector<MultigridLevel> levels;   // finest first
+  std::vector<Ratio> ratios;            // from level l to l + 1
+  CoarsestSolve coarsest;
+  std::vector<double> on_coarsest;
+};
+
+Multigrid::Multigrid(const StaggeredGrid& g) : hierarchy_(std::make_unique<Hierarchy>(g)) {}
+Multigrid::~Multigrid() = default;
+
+void Multigrid::set_couplings(const FaceFields& couplings) {
+  Hierarchy& m = *hierarchy_;
+  const StaggeredGrid& g = m.grid;
+  double largest = 0;   // scales single precision to its comfortable range
+  for (int c = 0; c < 3; ++c)
+    for (int i = 0; i < g.cells[0]; ++i)
+      for (int j = 0; j < g.cells[1]; ++j)
+        for (int k = 0; k < g.cells[2]; ++k) largest = std::max(largest, couplings.component(c)[g.index(i, j, k)]);
+  const double scale = largest > 0 ? 1 / largest : 1;
+  for (int c = 0; c < 3; ++c)
+    for (int i = 0; i < g.cells[0]; ++i)
+      for (int j = 0; j < g.cells[1]; ++j)
+        for (int k = 0; k < g.cells[2]; ++k)
+          m.levels[0].coupling(c, i, j, k) =
+              g.cells[c] > 1 ? static_cast<float>(couplings.component(c)[g.index(i, j, k)] * scale) : 0.0f;
+  m.levels[0].finish_couplings();
+  for (std::size_t l = 1; l < m.levels.size(); ++l) m.levels[l].aggregate_couplings(m.levels[l - 1], m.ratios[l - 1]);
+  m.coarsest.factor(m.levels.back().cell_count(), m.levels.back().matrix());
+}
+
+void Multigrid::apply(const double* r, double scale, double* z) noexcept {
+  Hierarchy& m = *hierarchy_;
+  const StaggeredGrid& g = m.grid;
+  for (int i = 0; i < g.cells[0]; ++i)
+    for (int j = 0; j < g.cells[1]; ++j) m.levels[0].set_right_hand_side(r + g.index(i, j, 0), scale, i, j);
+  m.cycle(0);
+  for (int i = 0; i < g.cells[0]; ++i)
+    for (int j = 0; j < g.cells[1]; ++j) m.levels[0].get_solution(z + g.index(i, j, 0), 1 / scale, i, j);
+}
+
+}  // namespace bedload

@@ -1,0 +1,32 @@
+// Geometric multigrid for div(c grad p): one symmetric V(2,2) cycle in single precision, a preconditioner.
+#pragma once
+
+#include <memory>
+
+#include "solver/fluid/staggered_grid.hpp"
+
+namespace bedload {
+
+/// Red-black Gauss-Seidel, piecewise-constant transfer, coarse coupling = sum of the fine couplings across the interface,
+/// halved along coarsened directions; only the strongly coupled directions are coarsened until cells are nearly cubic.
+/// Symmetric positive (semi-)definite: after the coarse correction the colours run in reverse order, and neighbours of one
+/// colour across an odd periodic seam see each other's old values.
+class Multigrid {
+ public:
+  explicit Multigrid(const StaggeredGrid&);
+  ~Multigrid();
+
+  /// Couplings w = c/h^2 (any unit; only ratios matter) on faces 0..n of all directions, zero on walls.
+  void set_couplings(const FaceFields& couplings);
+
+  /// z = approximately (inverse of -div c grad) r, up to a constant factor. r and z have the padded shape of the grid,
+  /// r is scaled by `scale` before it is rounded to single precision; z is written on cells only.
+  void apply(const double* r, double scale, double* z) noexcept;
+
+ private:
+  struct Level;
+  struct Hierarchy;
+  std::unique_ptr<Hierarchy> hierarchy_;
+};
+
+}  // namespace bedload

@@ -1,0 +1,83 @@
+// Central differences of second order, row by row along z.
+#include "solver/fluid/operators.hpp"
+
+#include "solver/fluid/rows.hpp"
+
+namespace bedload {
+namespace {
+
+/// Zeroes the faces 0 and n that lie on the walls normal to c.
+void clear_wall_faces(const StaggeredGrid& g, int c, double* field) noexcept {
+  if (g.periodic(c)) return;
+  const int a = c == 0 ? 1 : 0, b = c == 2 ? 1 : 2;
+  for (int m = 0; m < g.cells[a]; ++m)
+    for (int n = 0; n < g.cells[b]; ++n) {
+      double* low = field + g.index(0, 0, 0) + m * g.stride(a) + n * g.stride(b);
+      low[0] = low[g.cells[c] * g.stride(c)] = 0;
+    }
+}
+
+}  // namespace
+
+void gradient(const StaggeredGrid& g, const Field<Centre>& q, FaceFields& out) {
+  for (int c = 0; c < 3; ++c) {
+    const std::ptrdiff_t s = g.stride(c);
+    const double per_h = 1 / g.h[c];
+    for_each_face_row(g, c, [&](std::size_t row, int length) {
+      const double* __restrict value = q.data() + row;
+      double* __restrict slope = out.component(c) + row;
+      for (int k = 0; k < length; ++k) slope[k] = (value[k] - value[k - s]) * per_h;
+    });
+    clear_wall_faces(g, c, out.component(c));
+  }
+}
+
+void divergence(const StaggeredGrid& g, const FaceFields& flux, Field<Centre>& out) {
+  const std::ptrdiff_t sx = g.stride(0), sy = g.stride(1);
+  const double per_x = 1 / g.h.x, per_y = 1 / g.h.y, per_z = 1 / g.h.z;
+  for_each_cell_row(g, [&](std::size_t row, int length) {
+    const double* __restrict fx = flux.x.data() + row;
+    const double* __restrict fy = flux.y.data() + row;
+    const double* __restrict fz = flux.z.data() + row;
+    double* __restrict div = out.data() + row;
+    for (int k = 0; k < length; ++k)
+      div[k] = (fx[k + sx] - fx[k]) * per_x + (fy[k + sy] - fy[k]) * per_y + (fz[k + 1] - fz[k]) * per_z;
+  });
+}
+
+void laplacian(const StaggeredGrid& g, const FaceFields& velocity, FaceFields& out) {
+  const std::ptrdiff_t sx = g.stride(0), sy = g.stride(1);
+  const double ax = 1 / (g.h.x * g.h.x), ay = 1 / (g.h.y * g.h.y), az = 1 / (g.h.z * g.h.z);
+  for (int c = 0; c < 3; ++c) {
+    for_each_face_row(g, c, [&](std::size_t row, int length) {
+      const double* __restrict u = velocity.component(c) + row;
+      double* __restrict lap = out.component(c) + row;
+      for (int k = 0; k < length; ++k)
+        lap[k] = ((u[k + sx] - u[k]) - (u[k] - u[k - sx])) * ax + ((u[k + sy] - u[k]) - (u[k] - u[k - sy])) * ay +
+                 ((u[k + 1] - u[k]) - (u[k] - u[k - 1])) * az;
+    });
+    clear_wall_faces(g, c, out.component(c));
+  }
+}
+
+WallShear wall_shear(const StaggeredGrid& g, const FaceFields& velocity, double viscosity) {
+  WallShear shear;
+  if (g.periodic(2)) return shear;
+  const double weight = viscosity * g.h.x * g.h.y / g.h.z;
+  for (int c = 0; c < 2; ++c) {
+    const double* u = velocity.component(c);
+    for (int i = c == 0 ? g.first_face(0) : 0; i < g.cells[0]; ++i) {
+      double bottom = 0, top = 0;
+      for (int j = c == 1 ? g.first_face(1) : 0; j < g.cells[1]; ++j) {
+        const std::size_t low = g.index(i, j, 0), high = g.index(i, j, g.cells[2] - 1);
+        bottom += u[low] - u[low - 1];
+        top += u[high] - u[high + 1];
+      }
+      shear.bottom[c] += weight * bottom;
+      shear.top[c] += weight * top;
+    }
+  }
+  return shear;
+}
+
+}  // namespace bedload
