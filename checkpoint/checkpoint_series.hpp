@@ -1,6 +1,7 @@
 // The checkpoints of one case directory: ck-<step>.h5, the newest two.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -21,7 +22,7 @@ class CheckpointSeries {
   CheckpointSeries(std::filesystem::path directory, int keep, Say say);
 
   /// The newest checkpoint that is whole. Broken ones are renamed to ck-<step>.h5.broken and reported. Nothing if there
-  /// is none; Error corrupt if there were some and none is whole.
+  /// is none; Error corrupt if there were some and none is whole, or if the newest was written by a newer bedload.
   std::optional<State> newest();
   /// Publishes ck-<step>.h5, then removes all but the newest `keep`, and stray temporary files.
   void publish(const State&);
@@ -33,6 +34,7 @@ class CheckpointSeries {
 };
 
 /// Step and finished flag of the newest whole checkpoint, without loading it all and without changing anything on disk.
+/// Nothing if there is no whole one.
 std::optional<CheckpointPosition> newest_position(const std::filesystem::path& directory);
 
 }  // namespace bedload
