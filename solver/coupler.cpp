@@ -62,7 +62,7 @@ struct Coupler::Parts {
   TransportScratch transport_scratch;
   FlowAtGrains flow;
   std::vector<double> exchange, relaxation;
-  std::vector<Vec3> ballistic, flow_velocity, push, moved;
+  std::vector<Vec3> ballistic, flow_velocity, push, moved, drag_force;
 
   StepBooks books;
   StepTimes times;
@@ -90,6 +90,7 @@ struct Coupler::Parts {
 Coupler::Coupler(const Scene& scene) : parts_(std::make_unique<Parts>(scene)) {}
 Coupler::~Coupler() = default;
 const StepBooks& Coupler::books() const { return parts_->books; }
+std::span<const Vec3> Coupler::drag_on_grains() const { return parts_->drag_force; }
 const StepTimes& Coupler::times() const { return parts_->times; }
 void Coupler::forget() { parts_ = std::make_unique<Parts>(parts_->scene); }
 
@@ -201,7 +202,7 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
   const Grains& grains = state.grains;
   const double rho = scene.bed.fluid.density, nu = scene.bed.fluid.viscosity;
   const std::size_t count = grains.size();
-  exchange.resize(count), relaxation.resize(count), ballistic.resize(count), flow_velocity.resize(count), push.resize(count);
+  exchange.resize(count), relaxation.resize(count), ballistic.resize(count), flow_velocity.resize(count), push.resize(count), drag_force.resize(count);
   for (std::size_t p = 0; p < count; ++p) {
     exchange[p] = flow.drag[p] * dt / grid.cell_volume();
     relaxation[p] = 0, ballistic[p] = {}, push[p] = {};
@@ -224,6 +225,7 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
   Vec3 on_grains;
   for (std::size_t p = 0; p < count; ++p) {
     const Vec3 force = flow.drag[p] / (1 + relaxation[p]) * (flow_velocity[p] - ballistic[p]);   // per rho_f
+    drag_force[p] = rho * force;
     on_grains += force;
     if (!model_b()) on_grains += sphere_volume(grains.diameter[p]) * flow.acceleration[p];
     if (!grains.fixed[p]) push[p] += force / specific_mass(grains, p);

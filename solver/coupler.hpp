@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "solver/scene.hpp"
 #include "solver/state.hpp"
@@ -45,6 +46,8 @@ class Coupler {
   StepHealth step(State&, double longest);
 
   const StepBooks& books() const;
+  /// Drag of the last step on each grain, by id [N].
+  std::span<const Vec3> drag_on_grains() const;
   const StepTimes& times() const;
   /// Forgets all scratch (the amnesia test: must change no bit).
   void forget();
