@@ -16,6 +16,9 @@ class Experiment {
   State begin() const;
   /// A settled bed (the final state of a bed directory) as the start of this scene's ramp.
   State begin_on(State settled) const;
+  /// A finished state whose ramp this scene has not ended (more levels, another onset criterion) goes on with the next
+  /// hold. False, and nothing changed, if there is nothing to go on with.
+  bool reopen(State&) const;
 
   /// One packing interval or one coupled step, with what surrounds it: impose the hold's flow when it begins, count
   /// motion, sample, close the hold when its dwell has passed. Never called when finished.

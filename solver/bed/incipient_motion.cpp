@@ -82,6 +82,24 @@ bool ramp_is_over(const BedRecord& record, const Onset& onset, std::size_t ramp_
   return confirmed && done > *confirmed + 3;
 }
 
+std::uint64_t count_events(Grains& grains, std::span<const double> x_before, double period, double diameter) noexcept {
+  std::uint64_t events = 0;
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    double way = grains.position[p].x - x_before[p];
+    if (period > 0) way -= period * std::round(way / period);
+    double& travel = grains.travel[p];
+    travel += way;
+    for (; travel >= diameter / 2; travel -= diameter / 2) ++events;
+  }
+  return events;
+}
+
+std::uint64_t count_moving(const Grains& grains, double speed_scale) noexcept {
+  const double limit = 0.01 * speed_scale;
+  return static_cast<std::uint64_t>(std::count_if(grains.velocity.begin(), grains.velocity.end(),
+                                                  [&](Vec3 v) { return norm2(v) > limit * limit; }));
+}
+
 double surface_grains(const Scene& scene) {
   constexpr double coverage = 0.8;   // phi_A
   const double d = scene.bed.grains.diameter;

@@ -1,9 +1,11 @@
 // Onset of motion: which grains move, and at which hold of a ramp the bed has begun to.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "solver/bed/bed_record.hpp"
+#include "solver/grains/grains.hpp"
 #include "solver/scene.hpp"
 
 namespace bedload {
@@ -26,6 +28,13 @@ IncipientMotion incipient_motion(const BedRecord&, Onset::Criterion, double valu
 
 /// True when the ramp may end: onset confirmed and two more holds recorded, or every hold done.
 bool ramp_is_over(const BedRecord&, const Onset&, std::size_t ramp_levels);
+
+/// Adds the way that every grain has gone along x since `x_before` [m] to its travel (by the shorter way round in a box of
+/// `period` > 0), and takes off each d/2 that is complete. Returns how many were: the events of the flux criterion.
+std::uint64_t count_events(Grains&, std::span<const double> x_before, double period, double diameter) noexcept;
+
+/// Number of grains that are faster than 0.01 sqrt((s-1) g d) [m/s].
+std::uint64_t count_moving(const Grains&, double speed_scale) noexcept;
 
 /// Number of surface grains, A phi_A/(pi d^2/4) with phi_A = 0.8.
 double surface_grains(const Scene&);

@@ -107,6 +107,42 @@ TEST(RampEnd, ComesWithTheLastLevelWhateverMoved) {
   EXPECT_TRUE(ramp_is_over(ramp({0}), {.method = Onset::Method::none}, 0));
 }
 
+Grains row_of(std::initializer_list<double> x) {
+  Grains grains;
+  for (const double at : x) {
+    grains.resize(grains.size() + 1);
+    grains.position.back().x = at;
+  }
+  return grains;
+}
+
+TEST(MotionEvents, AreCountedOncePerHalfDiameterDownstream) {
+  Grains grains = row_of({0, 0, 0});
+  const double still[] = {0, 0, 0};
+  grains.position[0].x = 0.4;
+  grains.position[1].x = -3;
+  grains.position[2].x = 1.6;
+  EXPECT_EQ(count_events(grains, still, 0, 1), 3u);   // the third grain passed 0.5, 1.0 and 1.5
+  const double before[] = {0.4, -3, 1.6};
+  grains.position[0].x = 0.55;
+  grains.position[1].x = -2;
+  EXPECT_EQ(count_events(grains, before, 0, 1), 1u);   // the second is still upstream of where it was
+}
+
+TEST(MotionEvents, GoTheShortWayRoundAPeriodicBox) {
+  Grains grains = row_of({0.1, 9.8});
+  const double before[] = {9.9, 0.1};
+  EXPECT_EQ(count_events(grains, before, 10, 0.4), 1u);
+  EXPECT_NEAR(grains.travel[0], 0, 1e-12);
+  EXPECT_NEAR(grains.travel[1], -0.3, 1e-12);
+}
+
+TEST(MotionEvents, CallAGrainMovingAboveAHundredthOfTheScale) {
+  Grains grains = row_of({0, 0, 0});
+  grains.velocity = {{0.0099, 0, 0}, {0, 0.008, 0.008}, {0, 0, -0.0101}};
+  EXPECT_EQ(count_moving(grains, 1), 2u);
+}
+
 TEST(GrainTime, IsTheSlowerOfInertiaAndSettling) {
   EXPECT_NEAR(grain_time(1e-3, 2, 10, 1e3), 1e-2, 1e-12);    // sqrt(1e-3/10)
   EXPECT_NEAR(grain_time(1e-3, 2, 10, 1e-3), 1, 1e-12);      // d/U_t

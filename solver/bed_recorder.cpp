@@ -1,0 +1,189 @@
+// Sums over windows of a hold, and the rows made of them.
+#include "solver/bed_recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/bed/bed_profiles.hpp"
+#include "solver/bed/bed_surface.hpp"
+#include "solver/bed/incipient_motion.hpp"
+#include "solver/coupling/drag_laws.hpp"
+#include "solver/dimensionless.hpp"
+
+namespace bedload {
+
+namespace {
+
+constexpr double blocks_per_half = 5;   // for the standard error of the flux: each a few grain times long
+constexpr double not_known = -1;        // a momentum residual where walls or fixed grains take part unseen
+
+double density_ratio(const Scene& scene) { return scene.bed.grains.density / scene.bed.fluid.density; }
+
+double speed_scale_of(const Scene& scene) {
+  const double weight = reduced_gravity(density_ratio(scene), norm(scene.bed.gravity));
+  return std::sqrt(std::max(0.0, weight * scene.bed.grains.diameter));
+}
+
+double grain_time_of(const Scene& scene) {
+  const double d = scene.bed.grains.diameter, s = density_ratio(scene), g = norm(scene.bed.gravity);
+  const double fall = s > 1 && g > 0 ? terminal_speed(scene.drag, scene.bed.fluid.viscosity, s, d, g) : 0;
+  return grain_time(d, s, g, fall);
+}
+
+}  // namespace
+
+BedRecorder::BedRecorder(const Scene& scene)
+    : scene_(scene), area_(scene.bed.length.x * scene.bed.length.y),
+      stress_scale_(shields_stress(scene.bed.fluid, scene.bed.grains, norm(scene.bed.gravity))),
+      speed_scale_(speed_scale_of(scene)), surface_grains_(surface_grains(scene)), grain_time_(grain_time_of(scene)),
+      momentum_of_(scene) {}
+
+void BedRecorder::before_step(State& state) {
+  Search& search = state.search;
+  in_last_half_ = state.clock.time - search.hold_start >= scene_.drive.dwell / 2;
+  const bool open_half = in_last_half_ && search.half.duration == 0, open_sample = search.sample.duration == 0;
+  if (open_half || open_sample) {
+    const StreamwiseMomentum now = momentum_of_(state, search.bed_height);
+    const Window opened{.bed_fluid_momentum = now.fluid_below, .momentum = now.total};
+    if (open_half) search.half = opened;
+    if (open_sample) search.sample = opened;
+  }
+  x_before_.resize(state.grains.size());
+  for (std::size_t p = 0; p < x_before_.size(); ++p) x_before_[p] = state.grains.position[p].x;
+}
+
+void BedRecorder::after_step(State& state, const StepHealth& health, const StepBooks& books) {
+  Search& search = state.search;
+  const double period = scene_.grid.periodic(0) ? scene_.bed.length.x : 0;
+  const double events = double(count_events(state.grains, x_before_, period, scene_.bed.grains.diameter));
+  const double moving = double(count_moving(state.grains, speed_scale_)) / surface_grains_;
+  const double on_bed = books.on_grains.x + books.on_bottom.x, outer = outer_force(state.grains, books);
+  const auto add_to = [&](Window& window) {
+    window.duration += health.dt;
+    window.events += events;
+    window.moving_time += moving * health.dt;
+    window.bed_impulse += on_bed * health.dt;
+    window.outer_impulse += outer * health.dt;
+  };
+  add_to(search.sample);
+  if (in_last_half_) {
+    add_to(search.half);
+    search.block_events += events;
+    close_block(state);
+  }
+  if (state.clock.time >= search.next_sample) record_sample(state, health);
+}
+
+/// The last half is cut into blocks whose scatter gives the standard error of its flux.
+void BedRecorder::close_block(State& state) const {
+  Search& search = state.search;
+  const double half = scene_.drive.dwell / 2, into_half = state.clock.time - search.hold_start - half;
+  const bool over = state.clock.time - search.hold_start >= scene_.drive.dwell;
+  if (!over && into_half < (search.blocks + 1) * half / blocks_per_half) return;
+  search.blocks += 1;
+  search.block_events_squared += search.block_events * search.block_events;
+  search.block_events = 0;
+}
+
+/// Horizontal force from outside on fluid and grains: drive and tilted weight, less what bottom, lid and walls take up [N].
+double BedRecorder::outer_force(const Grains& grains, const StepBooks& books) const {
+  double tilted_weight = 0;
+  if (scene_.bed.gravity.x != 0)
+    for (std::size_t p = 0; p < grains.size(); ++p) {
+      const double lifted = scene_.terms.buoyancy ? scene_.bed.fluid.density : 0;
+      tilted_weight += (grains.density[p] - lifted) * sphere_volume(grains.diameter[p]) * scene_.bed.gravity.x;
+    }
+  return books.driving.x + tilted_weight - books.on_bottom.x - books.on_lid.x - books.contact_on_walls.x;
+}
+
+double BedRecorder::flux(double events, double duration) const {
+  return grain_time_ > 0 ? events * grain_time_ / (surface_grains_ * duration) : 0;
+}
+
+/// tau_b A = force on grains + force on the bottom + d/dt of the fluid's momentum below z_b - the drive below z_b.
+double BedRecorder::measured_shields(const Search& search, const Window& window, const StreamwiseMomentum& now) const {
+  if (stress_scale_ <= 0 || scene_.grid.periodic(2)) return 0;
+  const double driven = scene_.bed.fluid.density * search.gradient * area_ * search.bed_height;
+  const double force = (window.bed_impulse + now.fluid_below - window.bed_fluid_momentum) / window.duration - driven;
+  return force / (area_ * stress_scale_);
+}
+
+/// What the momentum of fluid and grains did beyond the forces from outside, in units of a Shields number.
+double BedRecorder::momentum_residual(const Grains& grains, const Window& window, const StreamwiseMomentum& now) const {
+  const auto& fixed = grains.fixed;
+  const bool seen = scene_.grid.periodic(0) && scene_.grid.periodic(1) && std::find(fixed.begin(), fixed.end(), 1) == fixed.end();
+  if (!seen || stress_scale_ <= 0) return not_known;
+  return std::abs(now.total - window.momentum - window.outer_impulse) / (window.duration * area_ * stress_scale_);
+}
+
+/// Where the bed stands now, and what moves: columns that samples and holds share.
+template <class Rows>
+void append_bed(const Scene& scene, const State& state, Rows& rows) {
+  const BedSurface surface = bed_surface(state.grains, scene.bed.length, scene.bed.grains.diameter);
+  rows.hold.push_back(double(state.search.hold));
+  rows.shields_nominal.push_back(state.search.shields);
+  rows.bed_height.push_back(surface.height);
+  rows.roughness.push_back(surface.roughness);
+  rows.coordination.push_back(coordination(state.contacts, state.grains.size()));
+  if constexpr (requires { rows.porosity; }) rows.porosity.push_back(surface.porosity);
+}
+
+void BedRecorder::record_sample(State& state, const StepHealth& health) {
+  Search& search = state.search;
+  const Window& window = search.sample;
+  const StreamwiseMomentum now = momentum_of_(state, search.bed_height);
+  double speed = 0;
+  for (const Vec3 v : state.grains.velocity) speed += norm(v);
+
+  BedRecord::Samples& row = state.record.samples;
+  append_bed(scene_, state, row);
+  row.time.push_back(state.clock.time);
+  row.shields_measured.push_back(measured_shields(search, window, now));
+  row.flux.push_back(flux(window.events, window.duration));
+  row.moving_fraction.push_back(window.moving_time / window.duration);
+  row.mean_grain_speed.push_back(speed / double(std::max<std::size_t>(1, state.grains.size())));
+  row.deepest_overlap.push_back(health.deepest_overlap);
+  row.momentum_residual.push_back(momentum_residual(state.grains, window, now));
+  record_tracks(state);
+
+  search.sample = {};
+  while (search.next_sample <= state.clock.time) search.next_sample += scene_.record.every;
+}
+
+void BedRecorder::record_tracks(State& state) const {
+  BedRecord::Tracks& row = state.record.tracks;
+  for (const std::uint64_t id : scene_.record.tracks) {
+    const Vec3 x = state.grains.position.at(id), v = state.grains.velocity.at(id);
+    row.time.push_back(state.clock.time);
+    row.grain.push_back(double(id));
+    row.x.push_back(x.x), row.y.push_back(x.y), row.z.push_back(x.z);
+    row.vx.push_back(v.x), row.vy.push_back(v.y), row.vz.push_back(v.z);
+  }
+}
+
+void BedRecorder::close_hold(State& state) {
+  Search& search = state.search;
+  const Window& window = search.half;
+  const StreamwiseMomentum now = momentum_of_(state, search.bed_height);
+  const double scatter = search.block_events_squared - window.events * window.events / search.blocks;
+  const double error_of_events = search.blocks > 1 ? std::sqrt(std::max(0.0, scatter) * search.blocks / (search.blocks - 1)) : 0;
+
+  BedRecord::Holds& row = state.record.holds;
+  append_bed(scene_, state, row);
+  row.start.push_back(search.hold_start);
+  row.end.push_back(state.clock.time);
+  row.shields_measured.push_back(measured_shields(search, window, now));
+  row.lid_speed.push_back(search.lid_speed);
+  row.gradient.push_back(search.gradient);
+  row.flux.push_back(flux(window.events, window.duration));
+  row.flux_standard_error.push_back(flux(error_of_events, window.duration));
+  row.moving_fraction.push_back(window.moving_time / window.duration);
+  row.momentum_residual.push_back(momentum_residual(state.grains, window, now));
+  record_profiles_of(state, double(search.hold));
+}
+
+void BedRecorder::record_profiles_of(State& state, double hold) const {
+  record_profiles(state.grains, state.fluid, scene_.grid, scene_.bed.grains.diameter, state.search.lid_speed, hold, state.record.profiles);
+}
+
+}  // namespace bedload

@@ -1,0 +1,46 @@
+// BedRecorder: what is measured during a hold, from one coupled step to a row of the record.
+#pragma once
+
+#include <memory>
+
+#include "solver/coupler.hpp"
+#include "solver/mixture_momentum.hpp"
+
+namespace bedload {
+
+/// All sums live in State (Search::half, Search::sample); here are only the scales of the scene and scratch.
+class BedRecorder {
+ public:
+  explicit BedRecorder(const Scene&);
+
+  /// Before a step: begins the windows that are due and notes where the grains are.
+  void before_step(State&);
+  /// After a step: counts events, adds forces, and writes a row of samples and tracks when one is due.
+  void after_step(State&, const StepHealth&, const StepBooks&);
+  /// At the end of a hold: its row and its profiles.
+  void close_hold(State&);
+  /// Profiles under the number `hold` (-1 = the bed before the ramp).
+  void record_profiles_of(State&, double hold) const;
+
+ private:
+  void close_block(State&) const;
+  void record_sample(State&, const StepHealth&);
+  void record_tracks(State&) const;
+  double outer_force(const Grains&, const StepBooks&) const;
+  double flux(double events, double duration) const;
+  double measured_shields(const Search&, const Window&, const StreamwiseMomentum& now) const;
+  double momentum_residual(const Grains&, const Window&, const StreamwiseMomentum& now) const;
+
+  const Scene scene_;
+  const double area_;            // of the box, seen from above [m2]
+  const double stress_scale_;    // (rho_p - rho_f) g d [Pa]
+  const double speed_scale_;     // sqrt((s-1) g d) [m/s]
+  const double surface_grains_;  // N_s [-]
+  const double grain_time_;      // t_d [s]
+
+  MixtureMomentum momentum_of_;
+  std::vector<double> x_before_;
+  bool in_last_half_ = false;    // the step under way; set by before_step
+};
+
+}  // namespace bedload

@@ -1,0 +1,138 @@
+// Packing, then hold after hold: impose the flow, step, record, close. All memory is in State.
+#include "solver/experiment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/bed/bed_surface.hpp"
+#include "solver/bed/incipient_motion.hpp"
+#include "solver/bed_recorder.hpp"
+#include "solver/grains/bed_packing.hpp"
+
+namespace bedload {
+
+struct Experiment::Parts {
+  explicit Parts(const Scene& given)
+      : scene(given), coupler(given), recorder(given), packing(std::make_unique<BedPacking>(given.bed)) {}
+
+  const Scene scene;
+  Coupler coupler;
+  BedRecorder recorder;
+  std::unique_ptr<BedPacking> packing;
+
+  bool ramp_over(const State& state) const { return ramp_is_over(state.record, scene.onset, scene.drive.levels.size()); }
+  void start_ramp(State&) const;
+  StepHealth pack(State&);
+  StepHealth hold(State&);
+  void begin_hold(State&) const;
+  void add_steady_flow(State&, const ImposedFlow& change) const;
+};
+
+Experiment::Experiment(const Scene& scene) : parts_(std::make_unique<Parts>(scene)) {}
+Experiment::~Experiment() = default;
+const Coupler& Experiment::coupler() const { return parts_->coupler; }
+void Experiment::forget() { parts_ = std::make_unique<Parts>(parts_->scene); }
+
+State Experiment::begin() const {
+  State state;
+  state.fluid = FluidState(parts_->scene.grid);
+  state.grains = place_grains(parts_->scene.bed);
+  if (!needs_settling(parts_->scene.bed)) parts_->start_ramp(state);
+  return state;
+}
+
+State Experiment::begin_on(State settled) const {
+  settled.fluid = FluidState(parts_->scene.grid);   // a bed's grid is not this scene's
+  settled.search = {};
+  settled.record = {};
+  parts_->start_ramp(settled);
+  return settled;
+}
+
+bool Experiment::reopen(State& state) const {
+  if (!finished(state) || parts_->scene.bed_only || parts_->ramp_over(state)) return false;
+  state.search.phase = Search::holding;
+  ++state.search.hold;
+  state.search.hold_begun = 0;
+  return true;
+}
+
+StepHealth Experiment::step(State& state) {
+  return state.search.phase == Search::packing ? parts_->pack(state) : parts_->hold(state);
+}
+
+double Experiment::planned_time() const {
+  const FlowRamp& ramp = parts_->scene.drive;
+  return ramp.dwell * static_cast<double>(std::max<std::size_t>(1, ramp.levels.size()));
+}
+
+StepHealth Experiment::Parts::pack(State& state) {
+  const BedPacking::Progress progress = packing->advance(state.grains, state.contacts);
+  ++state.clock.step;
+  state.clock.time += progress.dt;
+  if (progress.settled) {
+    renumber_in_space(scene.bed, state.grains, state.contacts);
+    start_ramp(state);
+  }
+  StepHealth health;
+  health.dt = progress.dt;
+  health.finite = std::isfinite(progress.energy);
+  return health;
+}
+
+/// The bed is as the flow will find it: the ramp's clock starts here.
+void Experiment::Parts::start_ramp(State& state) const {
+  constexpr double before_the_ramp = -1;
+  recorder.record_profiles_of(state, before_the_ramp);
+  state.clock.time = 0;
+  state.search.phase = scene.bed_only ? Search::finished : Search::holding;
+}
+
+StepHealth Experiment::Parts::hold(State& state) {
+  Search& search = state.search;
+  if (!search.hold_begun) begin_hold(state);
+  recorder.before_step(state);
+  const StepHealth health = coupler.step(state, std::min(scene.steps.fluid_interval, scene.drive.dwell / 2));
+  if (!health.finite) return health;
+  recorder.after_step(state, health, coupler.books());
+  if (state.clock.time - search.hold_start < scene.drive.dwell) return health;
+
+  recorder.close_hold(state);
+  if (ramp_over(state)) {
+    search.phase = Search::finished;
+  } else {
+    ++search.hold;
+    search.hold_begun = 0;
+  }
+  return health;
+}
+
+/// Momentum crosses the gap in H^2/(pi^2 nu), far longer than a dwell: the steady flow of the new level is set at once.
+void Experiment::Parts::begin_hold(State& state) const {
+  Search& search = state.search;
+  search.bed_height = bed_surface(state.grains, scene.bed.length, scene.bed.grains.diameter).height;
+  const ImposedFlow flow = imposed_flow(scene, search.hold, search.bed_height);
+  add_steady_flow(state, {.lid_speed = flow.lid_speed - search.lid_speed, .gradient = flow.gradient - search.gradient});
+  search.shields = flow.shields;
+  search.lid_speed = flow.lid_speed;
+  search.gradient = flow.gradient;
+
+  search.hold_begun = 1;
+  search.hold_start = state.clock.time;
+  search.next_sample = search.hold_start + scene.record.every;
+  search.half = search.sample = {};
+  search.blocks = search.block_events = search.block_events_squared = 0;
+  std::fill(state.grains.travel.begin(), state.grains.travel.end(), 0.0);
+}
+
+void Experiment::Parts::add_steady_flow(State& state, const ImposedFlow& change) const {
+  const StaggeredGrid& grid = scene.grid;
+  if (!grid.periodic(0) || grid.periodic(2)) return;   // between end walls, or without bottom and top, the flow is not this one
+  for (int k = 0; k < grid.cells[2]; ++k) {
+    const double more = steady_increment(scene, change, state.search.bed_height, (k + 0.5) * grid.h.z);
+    for (int i = 0; i < grid.cells[0]; ++i)
+      for (int j = 0; j < grid.cells[1]; ++j) state.fluid.velocity.x[grid.index(i, j, k)] += more;
+  }
+}
+
+}  // namespace bedload

@@ -1,0 +1,30 @@
+// The streamwise momentum of fluid and grains, as the coupled step conserves it.
+#pragma once
+
+#include <vector>
+
+#include "solver/coupling/void_fraction.hpp"
+#include "solver/scene.hpp"
+#include "solver/state.hpp"
+
+namespace bedload {
+
+struct StreamwiseMomentum {
+  double fluid_below = 0;   // of the fluid below a level [kg m/s]
+  double total = 0;         // of all fluid and all grains [kg m/s]
+};
+
+/// Evaluates rho_f sum eps_f u_f V_c + sum m v with the void fraction of the coupling. Keeps scratch between calls.
+class MixtureMomentum {
+ public:
+  explicit MixtureMomentum(const Scene&);
+  StreamwiseMomentum operator()(const State&, double level);
+
+ private:
+  StaggeredGrid grid_;
+  double fluid_density_;
+  std::vector<Stencil> stencils_;
+  VoidFraction void_fraction_;
+};
+
+}  // namespace bedload
