@@ -2,7 +2,6 @@
 #include "checkpoint/checkpoint.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <limits>
 
@@ -24,9 +23,12 @@ void check_format(const Hdf5Reader& file) {
   if (format < 1) throw Error(ErrorKind::corrupt, fmt::format("{}: checkpoint format 0 does not exist", file.name()));
 }
 
-[[noreturn]] void refuse_shape(const Hdf5Reader& file, const std::string& path, const Shape& shape, const char* wanted) {
+[[noreturn]] void refuse_shape(const Hdf5Reader& file, const std::string& path, const Shape& shape,
+                               const char* wanted) {
+  std::string extents;
+  for (const std::uint64_t extent : shape) extents += fmt::format("{}{}", extents.empty() ? "" : ", ", extent);
   throw Error(ErrorKind::corrupt,
-              fmt::format("{}: {} has shape [{}], expected {}", file.name(), path, fmt::join(shape, ", "), wanted));
+              fmt::format("{}: {} has shape [{}], expected {}", file.name(), path, extents, wanted));
 }
 
 /// Reads one field of any kind that each_field visits.
@@ -34,7 +36,7 @@ struct FieldReader {
   const Hdf5Reader& file;
 
   template <class Number>
-    requires std::is_arithmetic_v<Number>
+  requires std::is_arithmetic_v<Number>
   void operator()(const std::string& path, Number& number) const {
     if (const Shape shape = file.shape(path); !shape.empty()) refuse_shape(file, path, shape, "a single number");
     file.read(path, std::span<Number>(&number, 1));
@@ -64,7 +66,7 @@ struct FieldReader {
   }
 };
 
-}  // namespace
+}   // namespace
 
 std::vector<std::byte> checkpoint_image(const State& state) {
   Hdf5Writer file;
@@ -104,4 +106,4 @@ State read_checkpoint(const std::filesystem::path& path) { return state_from_ima
 
 void write_checkpoint(const std::filesystem::path& path, const State& state) { publish(path, checkpoint_image(state)); }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -25,8 +25,8 @@ struct WrittenByNewer : Error {
 struct CheckpointHeader {
   std::uint64_t format = 0;
   std::uint64_t physics_version = 0;
-  std::uint64_t step = 0;      // of the state's clock
-  std::uint64_t phase = 0;     // Search::Phase
+  std::uint64_t step = 0;    // of the state's clock
+  std::uint64_t phase = 0;   // Search::Phase
 };
 
 /// HDF5 image (core driver, no object times, Fletcher32) with the seal at its end: magic, length, SHA-256 of all before it.
@@ -44,4 +44,4 @@ State read_checkpoint(const std::filesystem::path&);
 /// One durable file under its final name: temp, write, fsync, rename, fsync directory. Error io leaves an old one as it was.
 void write_checkpoint(const std::filesystem::path&, const State&);
 
-}  // namespace bedload
+}   // namespace bedload

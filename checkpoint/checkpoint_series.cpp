@@ -63,7 +63,7 @@ bool is_broken(const Error& error) {
   return error.kind == ErrorKind::corrupt && dynamic_cast<const WrittenByNewer*>(&error) == nullptr;
 }
 
-}  // namespace
+}   // namespace
 
 CheckpointSeries::CheckpointSeries(fs::path directory, int keep, Say say)
     : directory_(std::move(directory)), keep_(keep), say_(std::move(say)) {}
@@ -113,4 +113,4 @@ std::optional<CheckpointPosition> newest_position(const fs::path& directory) {
   return {};
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -37,4 +37,4 @@ class CheckpointSeries {
 /// Nothing if there is no whole one.
 std::optional<CheckpointPosition> newest_position(const std::filesystem::path& directory);
 
-}  // namespace bedload
+}   // namespace bedload

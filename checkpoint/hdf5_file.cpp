@@ -174,7 +174,7 @@ Shape shape_of(hid_t dataset, const std::string& name, const std::string& path) 
   return {extents.begin(), extents.end()};
 }
 
-}  // namespace
+}   // namespace
 
 // --- Hdf5Writer
 
@@ -192,7 +192,8 @@ template <class Number>
 void Hdf5Writer::write(const std::string& path, std::span<const Number> numbers, std::span<const std::uint64_t> shape,
                        const std::string& unit) {
   if (numbers.size() != product(shape))
-    throw Error(ErrorKind::internal, fmt::format("{}: {} numbers for a shape of {}", path, numbers.size(), product(shape)));
+    throw Error(ErrorKind::internal,
+                fmt::format("{}: {} numbers for a shape of {}", path, numbers.size(), product(shape)));
   make_groups(file_, path);
   const Handle space = space_of(shape), layout = dataset_layout(shape, sizeof(Number));
   const hid_t type = NumberType<Number>::in_file();
@@ -238,7 +239,8 @@ std::string Hdf5Reader::unit(const std::string& path) const {
   const Handle dataset = open_dataset(file_, name_, path);
   const Handle attribute(found(H5Aopen(dataset, "unit", H5P_DEFAULT), name_, "the unit of " + path), H5Aclose);
   const Handle type(found(H5Aget_type(attribute), name_, "the unit of " + path), H5Tclose);
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) refuse(name_, path + " has a unit that is no text");
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
+    refuse(name_, path + " has a unit that is no text");
   std::string unit(H5Tget_size(type), '\0');
   found(H5Aread(attribute, type, unit.data()), name_, "the unit of " + path);
   return unit;
@@ -264,9 +266,9 @@ void Hdf5Reader::read(const std::string& path, std::span<Number> numbers) const 
   found(H5Dread(dataset, NumberType<Number>::in_memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), name_, path);
 }
 
-#define BEDLOAD_NUMBER(Number)                                                                        \
+#define BEDLOAD_NUMBER(Number)                                                                                 \
   template void Hdf5Writer::write(const std::string&, std::span<const Number>, std::span<const std::uint64_t>, \
-                                  const std::string&);                                                \
+                                  const std::string&);                                                         \
   template void Hdf5Reader::read(const std::string&, std::span<Number>) const;
 BEDLOAD_NUMBER(double)
 BEDLOAD_NUMBER(std::uint64_t)
@@ -274,4 +276,4 @@ BEDLOAD_NUMBER(std::uint32_t)
 BEDLOAD_NUMBER(std::uint8_t)
 #undef BEDLOAD_NUMBER
 
-}  // namespace bedload
+}   // namespace bedload

@@ -58,4 +58,4 @@ class Hdf5Reader {
   std::int64_t file_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

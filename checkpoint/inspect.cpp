@@ -25,4 +25,4 @@ std::vector<FieldSummary> summarise(const State& state) {
   return fields;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -19,4 +19,4 @@ struct FieldSummary {
 /// Every field of State in the order of the file.
 std::vector<FieldSummary> summarise(const State&);
 
-}  // namespace bedload
+}   // namespace bedload

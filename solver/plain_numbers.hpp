@@ -46,10 +46,8 @@ void set_interior(Field<Where>& field, std::array<int, 3> cells, std::span<const
 
 /// as_numbers(field, use) calls use(span of numbers, shape); the span lives as long as the call.
 template <class Number, class Use>
-  requires std::is_arithmetic_v<Number>
-void as_numbers(const Number& number, Use&& use) {
-  use(std::span<const Number>(&number, 1), ShapeView());
-}
+requires std::is_arithmetic_v<Number>
+void as_numbers(const Number& number, Use&& use) { use(std::span<const Number>(&number, 1), ShapeView()); }
 
 template <class Number, class Use>
 void as_numbers(const std::vector<Number>& numbers, Use&& use) {
@@ -73,4 +71,4 @@ void as_numbers(const Field<Where>& field, Use&& use) {
   use(std::span<const double>(row), ShapeView(shape));
 }
 
-}  // namespace bedload
+}   // namespace bedload

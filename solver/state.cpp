@@ -23,4 +23,4 @@ std::string state_digest(const State& state) {
   return digest.hex();
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -170,5 +170,5 @@ TEST_F(CheckpointSeriesOnDisk, TellsTheNewestPositionAndTouchesNothing) {
   EXPECT_EQ(names(), (std::set<std::string>{"ck-10.h5", "ck-20.h5"}));
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -97,8 +97,8 @@ TEST(Checkpoint, DetectsAFlippedBitWhereverItIs) {
   std::mt19937_64 random(8);
   std::vector<std::size_t> places(1500);
   for (std::size_t& place : places) place = random() % image.size();
-  for (std::size_t n = 0; n < 800; ++n) places.push_back(n);                       // superblock, root group
-  for (std::size_t n = 0; n < 48; ++n) places.push_back(image.size() - 1 - n);     // the seal itself
+  for (std::size_t n = 0; n < 800; ++n) places.push_back(n);                     // superblock, root group
+  for (std::size_t n = 0; n < 48; ++n) places.push_back(image.size() - 1 - n);   // the seal itself
   Bytes flipped = image;
   for (const std::size_t place : places) {
     flipped[place] ^= std::byte(1u << (random() % 8));
@@ -166,5 +166,5 @@ TEST(Checkpoint, TellsStepAndPhaseWithoutLoadingTheRest) {
   EXPECT_EQ(header.phase, Search::finished);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -134,5 +134,5 @@ TEST(Hdf5File, OpensSeveralFilesAtATime) {
   EXPECT_EQ(y[0], 2);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

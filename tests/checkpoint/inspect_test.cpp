@@ -51,5 +51,5 @@ TEST(Inspect, ListsEveryFieldOnce) {
   EXPECT_EQ(summarise(state).size(), fields);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -73,5 +73,5 @@ TEST(StateDigest, IsSixtyFourHexadecimalDigits) {
   EXPECT_EQ(digest.find_first_not_of("0123456789abcdef"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -36,8 +36,8 @@ class RandomState {
   }
   double any_double() {
     using Limits = std::numeric_limits<double>;
-    constexpr std::array special{Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), -0.0,
-                                 Limits::denorm_min(), Limits::max(), Limits::lowest(), Limits::epsilon()};
+    constexpr std::array special{Limits::quiet_NaN(),  Limits::infinity(), -Limits::infinity(), -0.0,
+                                 Limits::denorm_min(), Limits::max(),      Limits::lowest(),    Limits::epsilon()};
     if (bits_() % 8 == 0) return special[bits_() % special.size()];
     return std::ldexp(double(std::int64_t(bits_())), int(bits_() % 120) - 120);
   }
@@ -66,4 +66,4 @@ class RandomState {
 
 inline State random_state(std::uint64_t seed, StateSize size = {}) { return RandomState(seed, size).make(); }
 
-}  // namespace bedload
+}   // namespace bedload
