@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +14,7 @@
 #include "scheduler/judgement.hpp"
 #include "scheduler/ledger.hpp"
 #include "scheduler/progress.hpp"
+#include "scheduler/time_left.hpp"
 
 namespace bedload {
 
@@ -35,7 +36,7 @@ struct SchedulerWorld {
   /// Writes the results of a finished case (not of a bed), within the transaction that marks it done.
   std::function<void(Database&, const std::filesystem::path& case_directory)> on_finished;
   std::function<double()> clock;     // monotonic [s]
-  std::function<int()> interrupts;   // how often the user has pressed Ctrl-C so far
+  std::function<int()> interrupts;   // how often the user has pressed Ctrl-C so far: InterruptCounter::count
 };
 
 struct RunOutcome {
@@ -57,53 +58,56 @@ class Scheduler {
   struct Work {
     CaseEntry entry;
     std::filesystem::path directory;
-    bool wanted = false;          // to be worked on in this run
-    bool set_aside = false;
-    double not_before = 0;        // on the clock [s]: pause after an attempt without progress
-    double first_fraction = 0;    // where this run found it, for the time left
-    double first_seen = -1;
+    bool wanted = false;         // to be worked on in this run
+    bool set_aside = false;      // not again in this run
+    bool disk_refused = false;   // and that is why
+    double not_before = 0;       // on the clock [s]: a pause after an attempt without progress
+    double fraction = 0;         // of its planned time, as far as is known
   };
   struct Running {
     std::size_t work = 0;
-    bool adopted = false;         // of an earlier scheduler: its lock is watched
-    JobId job = 0;                // if not adopted
-    int attempt = 0;              // expected number
-    Heartbeat heartbeat;          // the last
-    double changed = 0;           // when it last changed, on the clock [s]
+    bool adopted = false;   // started by an earlier scheduler: its lock is watched
+    JobId job = 0;          // if not adopted
+    int attempt = 0;        // the number it is expected to have
+    std::optional<Heartbeat> heartbeat;
+    double changed = 0;     // when the heartbeat last changed, on the clock [s]
+    bool alive = false;     // it has changed since this scheduler watches
+    std::optional<double> first_fraction;
+    double first_seen = 0;  // when that was, on the clock [s]
     bool asked = false, silenced = false;
   };
 
-  void start_what_can_be();
-  bool start(std::size_t work);
-  bool bed_ready(const Work&);
+  void inspect(Work&);
+  void adopt(Work&, const LockHolder&);
   void want_beds();
+  void start_what_can_be();
+  bool bed_ready(Work&);
+  void start(Work&);
+  bool more_to_start() const;
+  void heed_interrupts();
+  void stop(Running&);
+  void kill(const Running&);
   void watch();
-  void ask_all_to_stop();
-  void kill_all();
+  void look_at(Running&);
   void ended(const Running&, const JobEnd*);
-  void settle(Work&, const Judgement&, const std::vector<Attempt>&);
-  void harvest(Work&);
-  Progress progress() const;
+  std::vector<Attempt> completed_attempts(const Running&, const JobEnd*);
+  void settle(Work&, const std::vector<Attempt>&, bool asked);
+  void harvest(Work&, const std::vector<Attempt>&);
+  void set_state(Work&, CaseState, const std::string& message = {});
+  Work* find(const std::string& id);
+  Progress progress();
+  RunOutcome outcome() const;
 
   Ledger* ledger_;
   Executor* executor_;
   ProgressSink* sink_;
   SchedulerWorld world_;
   SchedulerOptions options_;
-  std::vector<Work> works_;       // in order of enrolment
+  std::vector<Work> works_;   // in order of enrolment
   std::vector<Running> running_;
+  TimeLeft time_left_;
   double began_ = 0;
-  bool stopping_ = false;
-};
-
-/// Counts SIGINT and SIGTERM instead of dying of them, while it lives. One at a time.
-class InterruptCounter {
- public:
-  InterruptCounter();
-  ~InterruptCounter();
-  InterruptCounter(const InterruptCounter&) = delete;
-  InterruptCounter& operator=(const InterruptCounter&) = delete;
-  static int count();
+  bool stopping_ = false, killed_ = false;
 };
 
 }  // namespace bedload
