@@ -46,7 +46,11 @@ class ProgressPrinter : public ProgressSink {
   struct Style {
     bool terminal = false;
     bool colour = false;
+    int width = 80;   // [characters]: a line that wraps could not be repainted
   };
+  /// What suits a file descriptor, e.g. STDERR_FILENO.
+  static Style style_of(int descriptor);
+
   ProgressPrinter(Style, Write, Clock);
   ~ProgressPrinter() override;
 
@@ -54,18 +58,17 @@ class ProgressPrinter : public ProgressSink {
   void update(const Progress&) override;
 
  private:
+  std::string block_of(const Progress&) const;
   void erase_block();
 
   Style style_;
   Write write_;
   Clock clock_;
-  std::string block_;        // what stands on the terminal now
-  int block_lines_ = 0;
-  double last_update_ = 0;   // [s] on the clock
-  bool updated_ = false;
+  std::string block_;   // what stands on the terminal now
+  double last_line_;    // when the last line of progress was due, on the clock [s]
 };
 
-/// "3 done, 2 running, 1 failed of 12, at most 14 min left"
+/// "3 of 12 cases done, 2 at work, 1 failed, at most 14 min left"
 std::string summary(const Progress&);
 /// 45 s, 12 min, 3.4 h, 2.1 d
 std::string duration_text(double seconds);

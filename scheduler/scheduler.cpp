@@ -171,7 +171,10 @@ void Scheduler::start_what_can_be() {
 bool Scheduler::bed_ready(Work& work) {
   if (work.entry.bed.empty() || has_bed(work.directory)) return true;
   const Work& bed = *find(work.entry.bed);
-  if (bed.entry.state == CaseState::failed) set_state(work, CaseState::failed, fmt::format("its bed {} failed", bed.entry.label));
+  if (bed.entry.state == CaseState::failed) {
+    set_state(work, CaseState::failed, fmt::format("its bed {} failed", bed.entry.label));
+    sink_->event(fmt::format("{}: failed: {}", work.entry.label, work.entry.message));
+  }
   if (bed.entry.state == CaseState::stopped || bed.set_aside) {
     work.set_aside = true;
     work.disk_refused = bed.disk_refused;
@@ -261,7 +264,8 @@ std::vector<Attempt> Scheduler::completed_attempts(const Running& r, const JobEn
   const fs::path& directory = works_[r.work].directory;
   auto attempts = read_attempts(directory);
   const Cause cause = r.silenced || !end ? Cause::killed : cause_of(*end);
-  const std::string message = r.silenced ? "it was silent" : end ? describe(*end) : "it ended while no scheduler watched";
+  const std::string message = r.silenced ? "it was silent" : end ? fmt::format("{}, see log.{}", describe(*end), r.attempt)
+                                        : "it ended while no scheduler watched";
   const bool opened = !attempts.empty() && attempts.back().number >= r.attempt;
   if (!opened && end && cause != Cause::fenced && !world_.newest(directory).finished) {
     attempts.push_back(open_attempt(directory));
