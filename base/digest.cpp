@@ -16,14 +16,16 @@ namespace {
 void must(int result) {
   if (result != 1) throw Error(ErrorKind::internal, "libcrypto cannot compute a SHA-256");
 }
-}  // namespace
+}   // namespace
 
 struct Digest::Context {
   EVP_MD_CTX* evp = EVP_MD_CTX_new();
   ~Context() { EVP_MD_CTX_free(evp); }
 };
 
-Digest::Digest() : context_(std::make_unique<Context>()) { must(EVP_DigestInit_ex(context_->evp, EVP_sha256(), nullptr)); }
+Digest::Digest() : context_(std::make_unique<Context>()) {
+  must(EVP_DigestInit_ex(context_->evp, EVP_sha256(), nullptr));
+}
 Digest::~Digest() = default;
 Digest::Digest(Digest&&) noexcept = default;
 Digest& Digest::operator=(Digest&&) noexcept = default;
@@ -51,6 +53,8 @@ std::string Digest::hex() const {
   return digits;
 }
 
-std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text.data(), text.size())); }
+std::span<const std::byte> bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
 
-}  // namespace bedload
+}   // namespace bedload

@@ -37,4 +37,4 @@ class Digest {
 /// The bytes of a text, for functions that take bytes.
 std::span<const std::byte> bytes_of(std::string_view text);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -1,12 +1,9 @@
-// Publishing, sealing and locking with plain POSIX calls.
+// Publishing and reading with plain POSIX calls.
 #include "base/durable_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
-#include <ctime>
 #include <system_error>
 #include <utility>
 
@@ -15,6 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/descriptor.hpp"
 #include "base/digest.hpp"
 #include "base/error.hpp"
 
@@ -22,14 +20,7 @@ namespace bedload {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-DiskFault disk_fault;
-
-constexpr std::string_view temporary_ending = ".tmp~";
-
-/// Throws what errno says about a path.
-[[noreturn]] void fail(std::string_view verb, const fs::path& path, int error) {
+void throw_io(std::string_view verb, const fs::path& path, int error) {
   const char* hint = "";
   if (error == ENOSPC || error == EDQUOT) hint = "free some space, then run again: nothing that was complete is lost";
   if (error == EACCES || error == EPERM || error == EROFS) hint = "check the permissions, or choose another directory";
@@ -37,27 +28,18 @@ constexpr std::string_view temporary_ending = ".tmp~";
   throw Error(ErrorKind::io, fmt::format("cannot {} {}: {}", verb, path.string(), std::strerror(error)), hint);
 }
 
+namespace {
+
+DiskFault disk_fault;
+
+constexpr std::string_view temporary_ending = ".tmp~";
+
 /// True if the fault point lets the operation pass, else errno is set as the operation would.
 bool passes(DiskStep step, const fs::path& path) {
   const int error = disk_fault ? disk_fault(step, path) : 0;
   if (error != 0) errno = error;
   return error == 0;
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  int get() const { return fd_; }
-  int release() { return std::exchange(fd_, -1); }
-
- private:
-  int fd_;
-};
 
 /// A file under a temporary name, removed unless it has been given its final one.
 class Temporary {
@@ -72,25 +54,28 @@ class Temporary {
   void fill(std::span<const std::byte> bytes, bool sync) const {
     constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC;
     const Descriptor file(passes(DiskStep::create, target_) ? ::open(path_.c_str(), flags, 0666) : -1);
-    if (file.get() < 0) fail("create", path_, errno);
+    if (file.get() < 0) throw_io("create", path_, errno);
     while (!bytes.empty()) {
       const auto piece = bytes.first(std::min<std::size_t>(bytes.size(), 1 << 20));
       const ssize_t written = passes(DiskStep::write, target_) ? ::write(file.get(), piece.data(), piece.size()) : -1;
       if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail("write", target_, errno);
+      if (written < 0) throw_io("write", target_, errno);
       bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
-    if (sync && (!passes(DiskStep::sync, target_) || ::fsync(file.get()) != 0)) fail("write", target_, errno);
+    if (sync && (!passes(DiskStep::sync, target_) || ::fsync(file.get()) != 0)) throw_io("write", target_, errno);
   }
 
   void replace_target() const {
-    if (!passes(DiskStep::rename, target_) || ::rename(path_.c_str(), target_.c_str()) != 0) fail("write", target_, errno);
+    const bool done = passes(DiskStep::rename, target_) && ::rename(path_.c_str(), target_.c_str()) == 0;
+    if (!done) throw_io("write", target_, errno);
   }
 
   bool become_target_if_none() const {
     if (passes(DiskStep::rename, target_) && ::link(path_.c_str(), target_.c_str()) == 0) return true;
-    if (errno != EEXIST) fail("create", target_, errno);
-    return false;
+    if (errno != EEXIST) throw_io("create", target_, errno);
+    // A network file system may do the link, lose its answer, and refuse the repeated call: two names show who has won.
+    struct stat info;
+    return ::stat(path_.c_str(), &info) == 0 && info.st_nlink == 2;
   }
 
  private:
@@ -102,11 +87,11 @@ fs::path directory_of(const fs::path& path) { return path.has_parent_path() ? pa
 /// Without this a new name may be lost with the power, though its bytes are safe.
 void sync_directory(const fs::path& directory) {
   const Descriptor d(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (d.get() < 0) fail("open", directory, errno);
-  if (!passes(DiskStep::sync_directory, directory) || ::fsync(d.get()) != 0) fail("write", directory, errno);
+  if (d.get() < 0) throw_io("open", directory, errno);
+  if (!passes(DiskStep::sync_directory, directory) || ::fsync(d.get()) != 0) throw_io("write", directory, errno);
 }
 
-}  // namespace
+}   // namespace
 
 void set_disk_fault(DiskFault fault) { disk_fault = std::move(fault); }
 
@@ -147,14 +132,14 @@ std::vector<std::byte> read_file(const fs::path& path) {
     throw Error(ErrorKind::not_found, fmt::format("there is no file {}", path.string()));
   }
   struct stat info;
-  if (file.get() < 0 || ::fstat(file.get(), &info) != 0) fail("read", path, errno);
+  if (file.get() < 0 || ::fstat(file.get(), &info) != 0) throw_io("read", path, errno);
   std::vector<std::byte> bytes(static_cast<std::size_t>(info.st_size));
   std::size_t have = 0;
   for (;;) {   // until end of file: some files (pipes, /proc) do not know their size
     if (have == bytes.size()) bytes.resize(have + 4096);
     const ssize_t got = ::read(file.get(), bytes.data() + have, bytes.size() - have);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail("read", path, errno);
+    if (got < 0) throw_io("read", path, errno);
     if (got == 0) break;
     have += static_cast<std::size_t>(got);
   }
@@ -170,129 +155,8 @@ std::string read_text(const fs::path& path) {
 void make_writable_directory(const fs::path& directory) {
   std::error_code problem;
   fs::create_directories(directory, problem);
-  if (problem) fail("create", directory, problem.value());
-  if (::access(directory.c_str(), W_OK | X_OK) != 0) fail("write to", directory, errno);
+  if (problem) throw_io("create", directory, problem.value());
+  if (::access(directory.c_str(), W_OK | X_OK) != 0) throw_io("write to", directory, errno);
 }
 
-// ---- seal ----
-
-namespace {
-constexpr std::string_view seal_magic = "bdl-seal";
-constexpr std::size_t seal_size = 8 + 8 + 32;
-}  // namespace
-
-void append_seal(std::vector<std::byte>& bytes) {
-  const std::uint64_t length = bytes.size();
-  const auto hash = Digest().add(bytes).bytes();
-  const auto append = [&](std::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); };
-  append(bytes_of(seal_magic));
-  append(std::as_bytes(std::span(&length, 1)));
-  append(hash);
-}
-
-std::span<const std::byte> open_seal(std::span<const std::byte> sealed, const std::string& name) {
-  const auto refuse = [&](std::string_view why) { throw Error(ErrorKind::corrupt, fmt::format("{} {}", name, why)); };
-  if (sealed.size() < seal_size) refuse(fmt::format("is cut short: {} bytes cannot hold a seal", sealed.size()));
-  const auto payload = sealed.first(sealed.size() - seal_size);
-  const auto seal = sealed.last(seal_size);
-  std::uint64_t length;
-  std::memcpy(&length, seal.data() + 8, 8);
-  if (!std::ranges::equal(seal.first(8), bytes_of(seal_magic))) refuse("does not end in a seal: cut short, or no checkpoint");
-  if (length != payload.size()) refuse(fmt::format("was sealed at {} bytes and has {}", length, payload.size()));
-  if (!std::ranges::equal(seal.last(32), Digest().add(payload).bytes())) {
-    refuse("is damaged: its bytes do not match the SHA-256 of its seal");
-  }
-  return payload;
-}
-
-// ---- lock ----
-
-namespace {
-
-struct flock whole_file(short kind) {
-  struct flock lock {};
-  lock.l_type = kind;
-  lock.l_whence = SEEK_SET;
-  return lock;
-}
-
-void sign(int fd) {
-  std::array<char, 256> host{};
-  ::gethostname(host.data(), host.size() - 1);
-  const std::string text = fmt::format("{} {} {}\n", host.data(), ::getpid(), std::time(nullptr));
-  // The words are for people; the lock itself is the kernel's. A disk too full for them is no reason to refuse it.
-  if (::ftruncate(fd, 0) == 0 && ::pwrite(fd, text.data(), text.size(), 0) < 0) errno = 0;
-}
-
-LockHolder read_signature(int fd) {
-  std::array<char, 512> text{};
-  if (::pread(fd, text.data(), text.size() - 1, 0) <= 0) return {};
-  LockHolder holder;
-  std::string_view rest(text.data());
-  const auto word = [&rest] {
-    const auto end = std::min(rest.find_first_of(" \n"), rest.size());
-    const auto found = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    return found;
-  };
-  const auto number = [&word](std::int64_t& value) {
-    const auto digits = word();
-    std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  };
-  holder.host = word();
-  number(holder.pid);
-  number(holder.since);
-  return holder;
-}
-
-std::string duration(std::int64_t seconds) {
-  if (seconds < 120) return fmt::format("{} s", seconds);
-  if (seconds < 7200) return fmt::format("{} min", seconds / 60);
-  return fmt::format("{} h", seconds / 3600);
-}
-
-}  // namespace
-
-std::string describe(const LockHolder& h, std::int64_t now) {
-  if (h.host.empty()) return "a process that has not given its name";
-  return fmt::format("pid {} on host {}, for {}", h.pid, h.host, duration(std::max<std::int64_t>(0, now - h.since)));
-}
-
-std::optional<FileLock> FileLock::try_lock(const fs::path& path) {
-  Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-  if (file.get() < 0) fail("open", path, errno);
-  struct flock lock = whole_file(F_WRLCK);
-  if (::fcntl(file.get(), F_OFD_SETLK, &lock) != 0) {
-    if (errno != EAGAIN && errno != EACCES) fail("lock", path, errno);
-    return std::nullopt;
-  }
-  sign(file.get());
-  return FileLock(file.release());
-}
-
-std::optional<LockHolder> FileLock::holder(const fs::path& path) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0 && errno == ENOENT) return std::nullopt;
-  struct flock lock = whole_file(F_WRLCK);
-  if (file.get() < 0 || ::fcntl(file.get(), F_OFD_GETLK, &lock) != 0) fail("ask for the lock on", path, errno);
-  if (lock.l_type == F_UNLCK) return std::nullopt;
-  return read_signature(file.get());
-}
-
-FileLock FileLock::lock_or_refuse(const fs::path& path, const std::string& what) {
-  if (auto lock = try_lock(path)) return std::move(*lock);
-  const LockHolder other = holder(path).value_or(LockHolder{});
-  throw Error(ErrorKind::locked, fmt::format("{} is in use by {}", what, describe(other, std::time(nullptr))),
-              "wait for it, or stop it (Ctrl-C, or SIGTERM to that pid) and run again");
-}
-
-FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-FileLock& FileLock::operator=(FileLock&& other) noexcept {
-  std::swap(descriptor_, other.descriptor_);
-  return *this;
-}
-FileLock::~FileLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-}  // namespace bedload
+}   // namespace bedload

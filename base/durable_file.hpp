@@ -9,7 +9,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "base/descriptor.hpp"
 
 namespace bedload {
 
@@ -67,13 +70,9 @@ class FileLock {
   /// try_lock, or Error locked that names `what` and the holder.
   static FileLock lock_or_refuse(const std::filesystem::path&, const std::string& what);
 
-  FileLock(FileLock&&) noexcept;
-  FileLock& operator=(FileLock&&) noexcept;
-  ~FileLock();
-
  private:
-  explicit FileLock(int descriptor) : descriptor_(descriptor) {}
-  int descriptor_ = -1;
+  explicit FileLock(Descriptor file) : file_(std::move(file)) {}
+  Descriptor file_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

@@ -33,4 +33,4 @@ struct Error : std::runtime_error {
   std::string hint;
 };
 
-}  // namespace bedload
+}   // namespace bedload

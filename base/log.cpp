@@ -23,7 +23,7 @@ void write_line(std::string line) {
   if (::write(STDERR_FILENO, line.data(), line.size()) < 0) return;   // stderr closed: there is nobody to tell
 }
 
-}  // namespace
+}   // namespace
 
 void set_verbosity(Verbosity v) { verbosity = v; }
 
@@ -49,4 +49,4 @@ void log_error(const Error& error) {
   if (!error.hint.empty()) write_line(marked("hint:", "36") + error.hint);
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -19,4 +19,4 @@ void log_error(const Error&);
 /// True when a file descriptor is a terminal, NO_COLOR is unset or empty, and TERM is not "dumb".
 bool colour_wanted(int descriptor);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -32,9 +32,7 @@ std::uint64_t RandomStream::bits() noexcept {
   return std::uint64_t{block_[1]} << 32 | block_[0];
 }
 
-double RandomStream::uniform() noexcept {
-  return (static_cast<double>(bits() >> 12) + 0.5) * 0x1p-52;
-}
+double RandomStream::uniform() noexcept { return (static_cast<double>(bits() >> 12) + 0.5) * 0x1p-52; }
 
 namespace {
 
@@ -56,7 +54,7 @@ bool happens_times(RandomStream& random, int times, double x, double p) noexcept
   return true;
 }
 
-}  // namespace
+}   // namespace
 
 // Karney, "Sampling exactly from the normal distribution", ACM TOMS 42 (2016) 3, algorithm N: exact, and no logarithm or
 // exponential whose last bit depends on the processor's variant of libm. |z| = k + x has the density
@@ -72,4 +70,4 @@ double RandomStream::normal() noexcept {
   }
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -13,7 +13,8 @@ enum class Stream : std::uint8_t {
 };
 
 /// Philox4x32-10, a counter-based generator: Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11.
-std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key) noexcept;
+std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
+                                        std::array<std::uint32_t, 2> key) noexcept;
 
 /// The sequence of draws that belongs to one (seed, stream, id, step). Same bits on every machine: integers, comparisons
 /// and one division, no libm. At most 2^25 draws of 64 bits.
@@ -32,4 +33,4 @@ class RandomStream {
   bool half_used_ = false;
 };
 
-}  // namespace bedload
+}   // namespace bedload

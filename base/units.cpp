@@ -16,8 +16,8 @@ namespace {
 
 struct Unit {
   Dimension dimension;
-  int decimal = 0;      // power of ten to SI
-  double factor = 1;    // what no power of ten can say
+  int decimal = 0;     // power of ten to SI
+  double factor = 1;   // what no power of ten can say
   int diameters = 0, grain_times = 0;
 };
 
@@ -93,6 +93,12 @@ std::optional<Unit> find_unit(std::string_view symbol) {
   return std::nullopt;
 }
 
+double power_of(double base, int power) {
+  double result = 1;
+  for (int n = 0; n < std::abs(power); ++n) result *= base;
+  return power < 0 ? 1 / result : result;
+}
+
 void multiply(Unit& product, const Unit& unit, int power) {
   product.dimension.length += power * unit.dimension.length;
   product.dimension.mass += power * unit.dimension.mass;
@@ -101,7 +107,7 @@ void multiply(Unit& product, const Unit& unit, int power) {
   product.decimal += power * unit.decimal;
   product.diameters += power * unit.diameters;
   product.grain_times += power * unit.grain_times;
-  for (int n = 0; n < std::abs(power); ++n) product.factor = power > 0 ? product.factor * unit.factor : product.factor / unit.factor;
+  product.factor *= power_of(unit.factor, power);
 }
 
 /// The power behind a symbol in "m2", "m^2", "s-1"; 1 if there is none; nothing if it is no small whole number.
@@ -110,37 +116,37 @@ std::optional<int> read_power(std::string_view digits) {
   else if (digits.empty()) return 1;
   int power = 0;
   const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), power);
-  if (problem != std::errc() || end != digits.data() + digits.size() || power == 0 || std::abs(power) > 9) return std::nullopt;
-  return power;
+  const bool whole = problem == std::errc() && end == digits.data() + digits.size();
+  return whole && power != 0 && std::abs(power) <= 9 ? std::optional(power) : std::nullopt;
 }
 
-/// Products of symbols joined by spaces, * and /; a / concerns the next symbol alone ("kg/m s2" is refused as ambiguous).
+/// The unit that one word such as "mm" or "s-2" stands for, multiplied into a product to the power `sign` times its own.
+void multiply_word(Unit& product, std::string_view word, int sign, const std::string& complaint) {
+  const auto letters = std::min(word.find_first_of("^-+0123456789"), word.size());
+  const auto unit = find_unit(word.substr(0, letters));
+  const auto power = read_power(word.substr(letters));
+  if (!unit || !power) {
+    throw UnitError(
+        fmt::format("{}: \"{}\" is not a unit", complaint, word.empty() ? "/" : word),
+        "units are m g s min h Pa N rad deg with prefixes n u m c k M G; d and td count grain diameters and "
+        "grain times");
+  }
+  multiply(product, *unit, sign * *power);
+}
+
+/// Words joined by spaces and *, at most the last of them behind a /: "kg/m s2" could be read in two ways.
 Unit parse_unit(std::string_view text, const std::string& complaint) {
   Unit product;
-  int slashes = 0, after_slash = 0;
-  bool divide = false;
-  while (!text.empty()) {
-    const auto separators = std::min(text.find_first_not_of(" */"), text.size());
-    for (const char c : text.substr(0, separators)) {
-      if (c == '/') divide = true, ++slashes;
+  for (int sign = 1; !text.empty();) {
+    if (sign < 0) {
+      throw UnitError(complaint + ": its unit can be read in two ways", "write powers instead, as in \"kg m-1 s-2\"");
     }
+    const auto separators = std::min(text.find_first_not_of(" */"), text.size());
+    if (text.substr(0, separators).find('/') != text.npos) sign = -1;
     text.remove_prefix(separators);
     const auto end = std::min(text.find_first_of(" */"), text.size());
-    const auto word = text.substr(0, end);
+    multiply_word(product, text.substr(0, end), sign, complaint);
     text.remove_prefix(end);
-    const auto letters = std::min(word.find_first_of("^-+0123456789"), word.size());
-    const auto unit = find_unit(word.substr(0, letters));
-    const auto power = read_power(word.substr(letters));
-    if (word.empty() || !unit || !power) {
-      throw UnitError(fmt::format("{}: \"{}\" is not a unit", complaint, word.empty() ? "/" : word),
-                      "units are m g s min h Pa N rad deg with prefixes n u m c k M G, d (grain diameters), td (grain times)");
-    }
-    if (slashes > 0) ++after_slash;
-    multiply(product, *unit, divide ? -*power : *power);
-    divide = false;
-  }
-  if (slashes > 1 || after_slash > 1) {
-    throw UnitError(fmt::format("{}: its unit can be read in two ways", complaint), "write powers instead: \"kg m-3\"");
   }
   return product;
 }
@@ -194,16 +200,11 @@ void check_dimension(std::string_view text, const Unit& unit, const Dimension& w
   if (unit.dimension == dimension::number) {
     throw UnitError(fmt::format("\"{}\" has no unit, and {} is wanted", text, name_of(wanted)), example_of(wanted));
   }
-  throw UnitError(fmt::format("\"{}\" is {}, not {}", text, name_of(unit.dimension), name_of(wanted)), example_of(wanted));
+  throw UnitError(fmt::format("\"{}\" is {}, not {}", text, name_of(unit.dimension), name_of(wanted)),
+                  example_of(wanted));
 }
 
-double power_of(double base, int power) {
-  double result = 1;
-  for (int n = 0; n < std::abs(power); ++n) result *= base;
-  return power < 0 ? 1 / result : result;
-}
-
-}  // namespace
+}   // namespace
 
 Quantity parse_quantity(std::string_view text, Dimension wanted) {
   const std::string complaint = fmt::format("\"{}\" is not {}", text, name_of(wanted));
@@ -214,13 +215,17 @@ Quantity parse_quantity(std::string_view text, Dimension wanted) {
   check_dimension(text, unit, wanted);
   const auto value = read_shifted(body.substr(0, length), unit.decimal);
   if (!value) throw UnitError(complaint + ": too large or too small for a double");
-  return {.text = std::string(text), .value = *value * unit.factor, .dimension = unit.dimension,
-          .diameters = unit.diameters, .grain_times = unit.grain_times};
+  return {.text = std::string(text),
+          .value = *value * unit.factor,
+          .dimension = unit.dimension,
+          .diameters = unit.diameters,
+          .grain_times = unit.grain_times};
 }
 
 double Quantity::si(const GrainScales& scales) const {
   if (diameters != 0 && !scales.diameter) {
-    throw UnitError(fmt::format("\"{}\" counts grain diameters, which are not known here", text), example_of(dimension));
+    throw UnitError(fmt::format("\"{}\" counts grain diameters, which are not known here", text),
+                    example_of(dimension));
   }
   if (grain_times != 0 && !scales.time) {
     throw UnitError(fmt::format("\"{}\" counts grain times, which are not known here", text), example_of(dimension));
@@ -247,4 +252,4 @@ std::string shortest(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-}  // namespace bedload
+}   // namespace bedload

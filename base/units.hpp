@@ -23,10 +23,10 @@ inline constexpr Dimension angle{.angle = 1};
 inline constexpr Dimension speed{.length = 1, .time = -1};
 inline constexpr Dimension acceleration{.length = 1, .time = -2};
 inline constexpr Dimension density{.length = -3, .mass = 1};
-inline constexpr Dimension viscosity{.length = 2, .time = -1};                        // kinematic
+inline constexpr Dimension viscosity{.length = 2, .time = -1};   // kinematic
 inline constexpr Dimension pressure{.length = -1, .mass = 1, .time = -2};
 inline constexpr Dimension pressure_gradient{.length = -2, .mass = 1, .time = -2};
-}  // namespace dimension
+}   // namespace dimension
 
 /// A text that is not the quantity wanted: `"5 s" is a time, not a length`. Where it stood is for the caller to add.
 struct UnitError : std::invalid_argument {
@@ -68,4 +68,4 @@ std::string name_of(const Dimension&);
 /// The shortest decimal that reads back as the same double.
 std::string shortest(double);
 
-}  // namespace bedload
+}   // namespace bedload

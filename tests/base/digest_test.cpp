@@ -32,5 +32,5 @@ TEST(Digest, MayBeReadOnTheWay) {
   EXPECT_EQ(digest.add("b").hex(), Digest().add("a").add("b").hex());
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -28,7 +28,9 @@ class Scratch : public testing::Test {
     set_disk_fault({});
     fs::remove_all(directory);
   }
-  std::size_t file_count() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(directory), {})); }
+  std::size_t file_count() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(directory), {}));
+  }
 
   fs::path directory;
 };
@@ -84,14 +86,17 @@ TEST_F(DurableFile, LeavesTheOldFileWhenTheDiskIsFull) {
 
 TEST_F(DurableFile, LeavesTheOldFileWhenTheDiskFillsUpHalfWay) {
   publish(directory / "a", "old");
-  set_disk_fault([writes = 0](DiskStep step, const fs::path&) mutable { return step == DiskStep::write && ++writes > 2 ? ENOSPC : 0; });
+  set_disk_fault([writes = 0](DiskStep step, const fs::path&) mutable {
+    return step == DiskStep::write && ++writes > 2 ? ENOSPC : 0;
+  });
   EXPECT_THROW(publish(directory / "a", std::vector<std::byte>(8'000'000)), Error);
   EXPECT_EQ(read_text(directory / "a"), "old");
   EXPECT_EQ(file_count(), 1u);
 }
 
 TEST_F(DurableFile, IsOldOrNewWhenKilledAnywhere) {
-  for (const DiskStep step : {DiskStep::create, DiskStep::write, DiskStep::sync, DiskStep::rename, DiskStep::sync_directory}) {
+  for (const DiskStep step :
+       {DiskStep::create, DiskStep::write, DiskStep::sync, DiskStep::rename, DiskStep::sync_directory}) {
     publish(directory / "a", "old");
     const int status = in_child([&] {
       set_disk_fault([=](DiskStep now, const fs::path&) { return now == step ? ::raise(SIGKILL) : 0; });
@@ -228,7 +233,8 @@ TEST_F(FileLocks, SayWhoHoldsThemWithoutTouchingThem) {
     const auto holder = FileLock::holder(directory / "lock");
     ASSERT_TRUE(holder);
     EXPECT_EQ(holder->pid, ::getpid());
-    EXPECT_EQ(describe(*holder, holder->since + 180), "pid " + std::to_string(::getpid()) + " on host " + holder->host + ", for 3 min");
+    EXPECT_EQ(describe(*holder, holder->since + 180),
+              "pid " + std::to_string(::getpid()) + " on host " + holder->host + ", for 3 min");
     try {
       FileLock::lock_or_refuse(directory / "lock", "study laminar");
       FAIL();
@@ -240,5 +246,5 @@ TEST_F(FileLocks, SayWhoHoldsThemWithoutTouchingThem) {
   EXPECT_FALSE(FileLock::holder(directory / "lock"));
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -69,5 +69,5 @@ TEST(RandomStream, DrawsNormalNumbers) {
   EXPECT_NEAR(static_cast<double>(far), 270, 66);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -54,7 +54,8 @@ TEST(Units, ShiftTheExponentSoThatEveryPrefixGivesTheSameBits) {
 TEST(Units, RefuseALengthWhereATimeIsDue) {
   EXPECT_EQ(complaint("0.5 mm", dimension::time), "\"0.5 mm\" is a length, not a time");
   EXPECT_EQ(complaint("5 s", dimension::length), "\"5 s\" is a time, not a length");
-  EXPECT_EQ(complaint("1e-3 Pa s", dimension::viscosity), "\"1e-3 Pa s\" is a dynamic viscosity, not a kinematic viscosity");
+  EXPECT_EQ(complaint("1e-3 Pa s", dimension::viscosity),
+            "\"1e-3 Pa s\" is a dynamic viscosity, not a kinematic viscosity");
   EXPECT_EQ(complaint("1 kg2", dimension::mass), "\"1 kg2\" is a quantity in kg2, not a mass");
 }
 
@@ -66,7 +67,8 @@ TEST(Units, RefuseWhatIsNoNumber) {
   for (const char* text : {"0,8 mm", "mm", "", "  ", "inf m", "nan m", "1.2.3 mm", "-", "0.5-mm"}) {
     EXPECT_EQ(complaint(text, dimension::length), "\"" + std::string(text) + "\" is not a length");
   }
-  EXPECT_EQ(complaint("1e400 m", dimension::length), "\"1e400 m\" is not a length: too large or too small for a double");
+  EXPECT_EQ(complaint("1e400 m", dimension::length),
+            "\"1e400 m\" is not a length: too large or too small for a double");
 }
 
 TEST(Units, SuggestADecimalPointForAComma) {
@@ -82,7 +84,11 @@ TEST(Units, RefuseUnknownAndAmbiguousUnits) {
   EXPECT_EQ(complaint("3 furlong", dimension::length), "\"3 furlong\" is not a length: \"furlong\" is not a unit");
   EXPECT_EQ(complaint("3 mmin", dimension::time), "\"3 mmin\" is not a time: \"mmin\" is not a unit");
   EXPECT_EQ(complaint("3 /", dimension::length), "\"3 /\" is not a length: \"/\" is not a unit");
-  EXPECT_EQ(complaint("3 m/s/s", dimension::acceleration), "\"3 m/s/s\" is not an acceleration: its unit can be read in two ways");
+  EXPECT_EQ(complaint("3 kg/m s2", dimension::pressure),
+            "\"3 kg/m s2\" is not a pressure: its unit can be read in two ways");
+  EXPECT_EQ(read_quantity("3 kg m-1 s-2", dimension::pressure), 3);
+  EXPECT_EQ(complaint("3 m/s/s", dimension::acceleration),
+            "\"3 m/s/s\" is not an acceleration: its unit can be read in two ways");
 }
 
 TEST(Units, MeasureInGrainsOnceTheirScalesAreKnown) {
@@ -99,8 +105,10 @@ TEST(Units, MeasureInGrainsOnceTheirScalesAreKnown) {
 TEST(Shortest, ReadsBackAsTheSameDouble) {
   EXPECT_EQ(shortest(0.1), "0.1");
   EXPECT_EQ(shortest(1e-6), "1e-06");
-  for (const double x : {1.0 / 3, 6.02214076e23, -5e-324, 0.1 + 0.2}) EXPECT_EQ(std::strtod(shortest(x).c_str(), nullptr), x);
+  for (const double x : {1.0 / 3, 6.02214076e23, -5e-324, 0.1 + 0.2}) {
+    EXPECT_EQ(std::strtod(shortest(x).c_str(), nullptr), x);
+  }
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload
