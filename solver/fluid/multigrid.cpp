@@ -2,10 +2,10 @@
 #include "solver/fluid/multigrid.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "solver/fluid/coarsest_solve.hpp"
 #include "solver/fluid/multigrid_level.hpp"
+#include "solver/fluid/rows.hpp"
 
 namespace bedload {
 namespace {
@@ -49,8 +49,7 @@ struct Multigrid::Hierarchy {
     levels[l].smooth_from_zero();
     levels[l].restrict_residual(levels[l + 1], ratios[l]);
     cycle(l + 1);
-    levels[l].add_correction(levels[l + 1], ratios[l]);
-    levels[l].smooth_in_reverse();
+    levels[l].correct_and_smooth(levels[l + 1], ratios[l]);
   }
 
   template <class Body>
@@ -84,29 +83,25 @@ void Multigrid::set_couplings(const FaceFields& couplings) {
   const StaggeredGrid& g = m.grid;
   double largest = 0;   // scales single precision to its comfortable range
   for (int c = 0; c < 3; ++c)
-    for (int i = 0; i < g.cells[0]; ++i)
-      for (int j = 0; j < g.cells[1]; ++j)
-        for (int k = 0; k < g.cells[2]; ++k) largest = std::max(largest, couplings.component(c)[g.index(i, j, k)]);
+    for_each_cell_row(g, [&](std::size_t row, int length) {
+      for (std::size_t n = row; n < row + length; ++n) largest = std::max(largest, couplings.component(c)[n]);
+    });
   const double scale = largest > 0 ? 1 / largest : 1;
   for (int c = 0; c < 3; ++c)
     for (int i = 0; i < g.cells[0]; ++i)
       for (int j = 0; j < g.cells[1]; ++j)
-        for (int k = 0; k < g.cells[2]; ++k)
-          m.levels[0].coupling(c, i, j, k) =
-              g.cells[c] > 1 ? static_cast<float>(couplings.component(c)[g.index(i, j, k)] * scale) : 0.0f;
+        m.levels[0].set_couplings(c, i, j, couplings.component(c) + g.index(i, j, 0), scale);
   m.levels[0].finish_couplings();
   for (std::size_t l = 1; l < m.levels.size(); ++l) m.levels[l].aggregate_couplings(m.levels[l - 1], m.ratios[l - 1]);
   m.coarsest.factor(m.levels.back().cell_count(), m.levels.back().matrix());
 }
 
-void Multigrid::apply(const double* r, double scale, double* z) noexcept {
-  Hierarchy& m = *hierarchy_;
-  const StaggeredGrid& g = m.grid;
-  for (int i = 0; i < g.cells[0]; ++i)
-    for (int j = 0; j < g.cells[1]; ++j) m.levels[0].set_right_hand_side(r + g.index(i, j, 0), scale, i, j);
-  m.cycle(0);
-  for (int i = 0; i < g.cells[0]; ++i)
-    for (int j = 0; j < g.cells[1]; ++j) m.levels[0].get_solution(z + g.index(i, j, 0), 1 / scale, i, j);
+void Multigrid::set_right_hand_side(int i, int j, const double* row, double scale) noexcept {
+  hierarchy_->levels[0].set_right_hand_side(i, j, row, scale);
 }
+
+void Multigrid::cycle() noexcept { hierarchy_->cycle(0); }
+
+void Multigrid::get_solution(int i, int j, double* row) const noexcept { hierarchy_->levels[0].get_solution(i, j, row); }
 
 }  // namespace bedload

@@ -19,9 +19,11 @@ class Multigrid {
   /// Couplings w = c/h^2 (any unit; only ratios matter) on faces 0..n of all directions, zero on walls.
   void set_couplings(const FaceFields& couplings);
 
-  /// z = approximately (inverse of -div c grad) r, up to a constant factor. r and z have the padded shape of the grid,
-  /// r is scaled by `scale` before it is rounded to single precision; z is written on cells only.
-  void apply(const double* r, double scale, double* z) noexcept;
+  /// Right-hand side r of one row of cells, in units of `scale` (to be the same for all rows).
+  void set_right_hand_side(int i, int j, const double* row, double scale) noexcept;
+  /// z = approximately (inverse of -div c grad) r, up to a factor that only the couplings decide.
+  void cycle() noexcept;
+  void get_solution(int i, int j, double* row) const noexcept;
 
  private:
   struct Level;

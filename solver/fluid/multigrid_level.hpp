@@ -11,58 +11,58 @@ namespace bedload {
 /// one colour of a row are contiguous, and every neighbour of theirs too. Walls are faces without coupling.
 class MultigridLevel {
  public:
-  enum Colour { red = 0, black = 1 };
-
   MultigridLevel(std::array<int, 3> cells, std::array<bool, 3> periodic);
 
   const std::array<int, 3>& cells() const { return cells_; }
   int cell_count() const { return cells_[0] * cells_[1] * cells_[2]; }
 
-  /// Coupling of cell i,j,k with its lower neighbour along c; to be followed by finish_couplings().
-  float& coupling(int c, int i, int j, int k) { return coupling_[c][at(i, j, k)]; }
+  /// Couplings of the cells of a row with their lower neighbours along c; to be followed by finish_couplings().
+  void set_couplings(int c, int i, int j, const double* row, double scale) noexcept;
   /// Copies periodic couplings into the ghost faces and inverts the diagonal.
-  void finish_couplings();
+  void finish_couplings() noexcept;
   /// Sums of the couplings of `fine` across the interfaces between aggregates of ratio[c] cells.
-  void aggregate_couplings(const MultigridLevel& fine, std::array<int, 3> ratio);
+  void aggregate_couplings(const MultigridLevel& fine, std::array<int, 3> ratio) noexcept;
   /// The level's matrix, dense, row by row (for the coarsest level).
   std::vector<double> matrix() const;
 
-  void set_right_hand_side(const double* row, double scale, int i, int j) noexcept;
-  void get_solution(double* row, double scale, int i, int j) const noexcept;
+  void set_right_hand_side(int i, int j, const double* row, double scale) noexcept;
+  void get_solution(int i, int j, double* row) const noexcept;
   float& right_hand_side(int i, int j, int k) { return right_[at(i, j, k)]; }
   float& solution(int i, int j, int k) { return x_[at(i, j, k)]; }
 
   /// Two sweeps from a zero guess, red first.
   void smooth_from_zero() noexcept;
-  /// Two sweeps in exactly the reverse order of colours.
-  void smooth_in_reverse() noexcept;
   /// Right-hand side of `coarse` = sums of this level's residual over aggregates.
   void restrict_residual(MultigridLevel& coarse, std::array<int, 3> ratio) noexcept;
-  /// Adds to each cell the solution of its aggregate.
-  void add_correction(const MultigridLevel& coarse, std::array<int, 3> ratio) noexcept;
+  /// Adds to each cell the solution of its aggregate, then two sweeps in exactly the reverse order of colours.
+  void correct_and_smooth(const MultigridLevel& coarse, std::array<int, 3> ratio) noexcept;
 
  private:
-  std::size_t row(int i, int j) const { return (std::size_t(i + 1) * (cells_[1] + 2) + (j + 1)) * 2 * half_; }
-  std::size_t at(int i, int j, int k) const { return row(i, j) + (k & 1) * half_ + ((k + 2) >> 1); }
+  enum Colour { red = 0, black = 1 };
   /// The cells of one colour in row i,j: where they and their neighbours along z begin, and their number.
   struct ColouredRow {
     std::size_t own, below, above;
     int parity, count;
   };
+
+  std::size_t row(int i, int j) const { return (std::size_t(i + 1) * (cells_[1] + 2) + (j + 1)) * 2 * half_; }
+  std::size_t at(int i, int j, int k) const { return row(i, j) + (k & 1) * half_ + ((k + 2) >> 1); }
   ColouredRow coloured_row(int i, int j, Colour) const noexcept;
-  void relax(Colour) noexcept;
-  void begin_with_red() noexcept;
+  void relax(int plane, Colour) noexcept;
+  void begin_with_red(int plane) noexcept;
+  void add_correction(int plane, const MultigridLevel& coarse, std::array<int, 3> ratio) noexcept;
+  void add_residual(int i, int j, Colour, int ratio, float* sums) const noexcept;
+  void fill_ghost_cells(int i, int j) noexcept;
   void fill_ghost_rows(int plane) noexcept;
   void fill_ghost_planes() noexcept;
-  void fill_ghosts() noexcept;
-  void fill_ghost_cells(int i, int j) noexcept;
 
   std::array<int, 3> cells_;
   std::array<bool, 3> wraps_;   // periodic with more than one cell
   bool seam_;                   // some periodic direction is odd: cells of one colour meet there
   std::size_t half_;            // length of half a row, ghosts and padding included
   std::array<std::vector<float>, 3> coupling_;
-  std::vector<float> inverse_diagonal_, x_, right_, row_buffer_;
+  std::vector<float> inverse_diagonal_, x_, right_;   // zero on padding, so that kernels may run over it
+  std::vector<float> coarse_row_;                     // one row of the next coarser level in natural order
 };
 
 }  // namespace bedload
