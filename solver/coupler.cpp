@@ -75,7 +75,7 @@ struct Coupler::Parts {
 
   void place_on_grid(const Grains&);
   void accelerate_faces(State&);
-  void sample_at_grains(const State&);
+  void sample_at_grains(State&);
   double choose_step(const State&, double longest);
   void solve_drag(State&, double dt);
   void move_grains(State&, double dt);
@@ -132,7 +132,6 @@ void Coupler::Parts::accelerate_faces(State& state) {
   gradient(grid, state.fluid.pressure, acceleration);
   laplacian(grid, u, laplace);
   deposit_solid_flux(grid, state.grains, stencils, flux);
-  clear_walls(grid, flux);
   const double nu = scene.bed.fluid.viscosity;
   for (int c = 0; c < 3; ++c) {
     double *a = acceleration.component(c), *f = flux.component(c);
@@ -151,9 +150,9 @@ void Coupler::Parts::accelerate_faces(State& state) {
   books.driving = rho * box.x * box.y * box.z * drive(state);
 }
 
-void Coupler::Parts::sample_at_grains(const State& state) {
+void Coupler::Parts::sample_at_grains(State& state) {
   Stopwatch watch(times.sample);
-  sample_flow(state.grains, stencils, state.fluid.velocity, acceleration, before.centre, law, scene.bed.fluid.viscosity, scene.terms, flow);
+  sample_flow(grid, state.grains, stencils, state.fluid.velocity, acceleration, before.centre, law, scene.bed.fluid.viscosity, scene.terms, flow);
   health.void_clamps = flow.void_clamps;
 }
 
@@ -220,7 +219,7 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
   }
   const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
   const bool implicit = nu * dt > explicit_viscosity_limit * shortest_edge * shortest_edge;
-  health.drag_iterations = drag.solve(grid, {stencils, exchange, relaxation, ballistic, implicit ? nu * dt : 0}, before.face, impulse,
+  health.drag_iterations = drag.solve(grid, {stencils, exchange, relaxation, ballistic, flow.velocity, implicit ? nu * dt : 0}, before.face, impulse,
                                       state.fluid.velocity, flow_velocity);
   Vec3 on_grains;
   for (std::size_t p = 0; p < count; ++p) {
@@ -288,7 +287,6 @@ void Coupler::Parts::transport_momentum(State& state, double dt) {
 void Coupler::Parts::project(State& state, double dt) {
   Stopwatch watch(times.pressure);
   if (!health.finite) return;
-  clear_walls(grid, solid_flux);
   for (int c = 0; c < 3; ++c) {
     double* f = solid_flux.component(c);
     const double *eps = before.face.component(c), *u = state.fluid.velocity.component(c);
@@ -335,9 +333,11 @@ void Coupler::Parts::kick_mixture(State& state, double dt) {
   }
   books.on_grains += rho * grid.cell_volume() * on_fixed;
   if (health.substeps == 0) return;
+  extend_samples(grid, kick);
+  const Strides stride(grid);
   for (std::size_t p = 0; p < state.grains.size(); ++p) {
     if (state.grains.fixed[p]) continue;
-    const Vec3 change = -sample(stencils[p], kick);
+    const Vec3 change = -sample(stencils[p], stride, kick);
     state.grains.velocity[p] += dt * change;
     books.on_grains += rho * specific_mass(state.grains, p) * change;
   }

@@ -9,10 +9,6 @@ namespace {
 
 constexpr int most_iterations = 500;
 
-void clear(FaceFields& f) {
-  for (int c = 0; c < 3; ++c) std::fill_n(f.component(c), f.x.values.size(), 0.0);
-}
-
 double inner(const StaggeredGrid& g, const FaceFields& a, const FaceFields& b) {
   double total = 0;
   for (int c = 0; c < 3; ++c)
@@ -35,19 +31,14 @@ ImplicitDrag::ImplicitDrag(const StaggeredGrid& g)
 /// Fills B, the diagonal and the first residual (that of u* = u^n); returns b_max.
 double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction, const FaceFields& impulse,
                            const FaceFields& velocity) {
-  clear(exchange_), clear(diagonal_), clear(residual_);
+  clear(exchange_), clear(residual_);
+  const Strides stride(g);
   for (std::size_t p = 0; p < problem.stencils.size(); ++p) {
-    const Stencil& s = problem.stencils[p];
-    const double k = problem.exchange[p], shared = k * problem.relaxation[p] / (1 + problem.relaxation[p]);
-    const Vec3 given = shared * sample(s, velocity) + k / (1 + problem.relaxation[p]) * problem.ballistic[p];
-    deposit(s, {k, k, k}, exchange_);
-    deposit(s, given, residual_);
-    const auto share_diagonal = [shared](double* d) { return [d, shared](std::int32_t n, double w) { d[n] -= w * w * shared; }; };
-    if (shared == 0) continue;
-    for_each_face<0>(s, share_diagonal(diagonal_.component(0)));
-    for_each_face<1>(s, share_diagonal(diagonal_.component(1)));
-    for_each_face<2>(s, share_diagonal(diagonal_.component(2)));
+    const double k = problem.exchange[p], a = problem.relaxation[p];
+    deposit(problem.stencils[p], stride, {k, k, k}, exchange_);
+    deposit(problem.stencils[p], stride, k / (1 + a) * (a * problem.flow_velocity[p] + problem.ballistic[p]), residual_);
   }
+  fold_deposits(g, exchange_), fold_deposits(g, residual_);
   const Vec3 h = g.h;
   const double viscous = problem.implicit_viscosity * 2 * (1 / (h.x * h.x) + 1 / (h.y * h.y) + 1 / (h.z * h.z));
   double b_max = 0;
@@ -55,7 +46,7 @@ double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, c
     double *d = diagonal_.component(c), *r = residual_.component(c);
     const double *b = exchange_.component(c), *eps = void_fraction.component(c), *t = impulse.component(c), *u = velocity.component(c);
     for_each_unknown_face(g, c, [&](std::size_t n) {
-      d[n] += eps[n] + b[n] + viscous;
+      d[n] = eps[n] + b[n] + viscous;
       r[n] += t[n] - b[n] * u[n];
       b_max = std::max(b_max, b[n] / eps[n]);
     });
@@ -65,11 +56,15 @@ double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, c
 
 void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction, FaceFields& x, FaceFields& out) {
   clear(out);
+  extend_samples(g, x);
+  const Strides stride(g);
   for (std::size_t p = 0; p < problem.stencils.size(); ++p) {
     const double a = problem.relaxation[p];
     if (a == 0) continue;
-    deposit(problem.stencils[p], -problem.exchange[p] * a / (1 + a) * sample(problem.stencils[p], x), out);
+    const Stencil& s = problem.stencils[p];
+    deposit(s, stride, -problem.exchange[p] * a / (1 + a) * sample(s, stride, x), out);
   }
+  fold_deposits(g, out);
   if (problem.implicit_viscosity > 0) {
     fill_velocity_ghosts(g, x, 0);
     laplacian(g, x, laplacian_);
@@ -107,7 +102,8 @@ int ImplicitDrag::solve(const StaggeredGrid& g, const DragProblem& problem, cons
     ++iterations;
   }
   each([&](int c, std::size_t n) { velocity.component(c)[n] += change_.component(c)[n]; });
-  for (std::size_t p = 0; p < problem.stencils.size(); ++p) flow_velocity[p] = sample(problem.stencils[p], velocity);
+  extend_samples(g, velocity);
+  for (std::size_t p = 0; p < problem.stencils.size(); ++p) flow_velocity[p] = sample(problem.stencils[p], Strides(g), velocity);
   each([&](int c, std::size_t n) { velocity.component(c)[n] += residual_.component(c)[n] / void_fraction.component(c)[n]; });
   if (problem.implicit_viscosity > 0) fill_velocity_ghosts(g, change_, 0);
   return iterations;

@@ -2,16 +2,38 @@
 //
 // The derivative of the quadratic B-spline of a cell is the difference of the hats of its two faces. So the void fraction
 // on cells, and the flux of solid on faces, satisfy d(phi)/dt + div J = 0 identically (docs/physics_coupling.md).
+//
+// A grain writes to and reads from up to one layer of ghosts, as if the box went on: fold_deposits brings what was written
+// there home (round the period, or reflected at a wall), extend_samples fills it for reading: the transpose.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <cstring>
 
 #include "solver/fluid/staggered_grid.hpp"
 
 namespace bedload {
+
+/// Four neighbours along z.
+using Row = double __attribute__((vector_size(32)));
+
+inline Row load_row(const double* p) noexcept {
+  Row r;
+  std::memcpy(&r, p, sizeof r);
+  return r;
+}
+inline void add_row(double* p, Row r) noexcept {
+  const Row sum = load_row(p) + r;
+  std::memcpy(p, &sum, sizeof sum);
+}
+inline double sum_of(Row r) noexcept { return (r[0] + r[1]) + (r[2] + r[3]); }
+
+struct Strides {
+  explicit Strides(const StaggeredGrid& g) : x(g.stride(0)), y(g.stride(1)) {}
+  std::ptrdiff_t x, y;
+};
 
 /// Weights of the three cells around `offset`, the distance from the middle one's centre in cell edges (|offset| <= 1/2).
 constexpr std::array<double, 3> quadratic_spline(double offset) noexcept {
@@ -19,88 +41,88 @@ constexpr std::array<double, 3> quadratic_spline(double offset) noexcept {
   return {0.5 * l * l, 0.75 - offset * offset, 0.5 * r * r};
 }
 
-/// Where one grain touches the grid: weights and padded offsets per direction. Beyond a wall the spline is folded back
-/// into the box (the same sign), so weights always sum to one; hats next to a wall may fall on the wall's own face.
+/// The cell of a box of n cells in which s [cell edges] lies.
+inline int cell_of(double s, int n) noexcept { return std::clamp(static_cast<int>(std::floor(s)), 0, n - 1); }
+
+/// One grain's weights around its cell i, j, k: of cells i-1..i+1, of faces i and i+1, and so on; along z as rows k-1..k+2.
 struct Stencil {
-  double cell[3][3];
-  double face[3][2];
-  std::int32_t cell_offset[3][3];
-  std::int32_t face_offset[3][2];
+  double cell_x[3], cell_y[3], face_x[2], face_y[2];
+  Row cell_z, face_z;
+  std::ptrdiff_t corner;   // padded index of cell i-1, j-1, k-1
 
   Stencil() = default;
   Stencil(const StaggeredGrid& grid, Vec3 position) noexcept {
-    for (int c = 0; c < 3; ++c) {
-      const int n = grid.cells[c];
-      const double s = position[c] / grid.h[c];
-      const int i = std::clamp(static_cast<int>(std::floor(s)), 0, n - 1);
-      const double f = s - i;
-      const auto b = quadratic_spline(f - 0.5);
-      const auto stride = static_cast<std::int32_t>(grid.stride(c));
-      for (int m = 0; m < 3; ++m) cell[c][m] = b[m], cell_offset[c][m] = place_cell(grid, c, i + m - 1) * stride;
-      face[c][0] = 1 - f, face[c][1] = f;
-      for (int m = 0; m < 2; ++m) face_offset[c][m] = place_face(grid, c, i + m) * stride;
-    }
-  }
-
-  /// Padded cell number in direction c, wrapped or folded.
-  static int place_cell(const StaggeredGrid& g, int c, int i) noexcept {
-    const int n = g.cells[c];
-    if (g.periodic(c)) i = (i + 2 * n) % n;
-    return std::clamp(i, 0, n - 1) + StaggeredGrid::ghosts;
-  }
-  /// Padded face number; the last wall keeps its own face n.
-  static int place_face(const StaggeredGrid& g, int c, int i) noexcept {
-    const int n = g.cells[c];
-    return (g.periodic(c) ? (i + 2 * n) % n : i) + StaggeredGrid::ghosts;
+    const Vec3 s{position.x / grid.h.x, position.y / grid.h.y, position.z / grid.h.z};
+    const int i = cell_of(s.x, grid.cells[0]), j = cell_of(s.y, grid.cells[1]), k = cell_of(s.z, grid.cells[2]);
+    const Vec3 f{s.x - i, s.y - j, s.z - k};
+    const auto x = quadratic_spline(f.x - 0.5), y = quadratic_spline(f.y - 0.5), z = quadratic_spline(f.z - 0.5);
+    std::copy(x.begin(), x.end(), cell_x);
+    std::copy(y.begin(), y.end(), cell_y);
+    cell_z = Row{z[0], z[1], z[2], 0};
+    face_x[0] = 1 - f.x, face_x[1] = f.x;
+    face_y[0] = 1 - f.y, face_y[1] = f.y;
+    face_z = Row{0, 1 - f.z, f.z, 0};
+    corner = static_cast<std::ptrdiff_t>(grid.index(i - 1, j - 1, k - 1));
   }
 };
 
-/// Calls visit(padded index, weight) for the 27 cells of a grain.
-template <class Visit>
-inline void for_each_cell(const Stencil& s, Visit&& visit) noexcept {
-  for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b) {
-      const double w = s.cell[0][a] * s.cell[1][b];
-      const std::int32_t at = s.cell_offset[0][a] + s.cell_offset[1][b];
-      for (int c = 0; c < 3; ++c) visit(at + s.cell_offset[2][c], w * s.cell[2][c]);
-    }
+/// Places a field can live: faces normal to x, y, z, or cells.
+enum Place : int { on_x_faces = 0, on_y_faces = 1, on_z_faces = 2, on_cells = 3 };
+
+/// Calls visit(padded index of the row's first entry, weight across the row) for each row of z-neighbours of a grain.
+template <Place P, class Visit>
+inline void for_each_row(const Stencil& s, Strides stride, Visit&& visit) noexcept {
+  constexpr int nx = P == on_x_faces ? 2 : 3, ny = P == on_y_faces ? 2 : 3;
+  const double* wx = P == on_x_faces ? s.face_x : s.cell_x;
+  const double* wy = P == on_y_faces ? s.face_y : s.cell_y;
+  for (int a = 0; a < nx; ++a)
+    for (int b = 0; b < ny; ++b) visit(s.corner + (a + 3 - nx) * stride.x + (b + 3 - ny) * stride.y, wx[a] * wy[b]);
 }
 
-/// Calls visit(padded index, weight) for the 18 faces normal to direction C of a grain.
-template <int C, class Visit>
-inline void for_each_face(const Stencil& s, Visit&& visit) noexcept {
-  constexpr int D = (C + 1) % 3 < (C + 2) % 3 ? (C + 1) % 3 : (C + 2) % 3, E = 3 - C - D;   // D < E: E is contiguous or nearest to it
-  for (int a = 0; a < 2; ++a)
-    for (int b = 0; b < 3; ++b) {
-      const double w = s.face[C][a] * s.cell[D][b];
-      const std::int32_t at = s.face_offset[C][a] + s.cell_offset[D][b];
-      for (int c = 0; c < 3; ++c) visit(at + s.cell_offset[E][c], w * s.cell[E][c]);
-    }
+template <Place P>
+inline Row row_weights(const Stencil& s) noexcept {
+  return P == on_z_faces ? s.face_z : s.cell_z;
 }
 
-/// Value of a face field at a grain: one component per direction of the faces.
-inline Vec3 sample(const Stencil& s, const FaceFields& f) noexcept {
-  Vec3 value;
-  const double *x = f.component(0), *y = f.component(1), *z = f.component(2);
-  for_each_face<0>(s, [&](std::int32_t n, double w) { value.x += w * x[n]; });
-  for_each_face<1>(s, [&](std::int32_t n, double w) { value.y += w * y[n]; });
-  for_each_face<2>(s, [&](std::int32_t n, double w) { value.z += w * z[n]; });
-  return value;
+/// Value of one field at a grain.
+template <Place P>
+inline double sample(const Stencil& s, Strides stride, const double* field) noexcept {
+  Row sum{};
+  for_each_row<P>(s, stride, [&](std::ptrdiff_t n, double w) { sum += w * load_row(field + n); });
+  return sum_of(sum * row_weights<P>(s));
 }
 
-/// Value of a centre field at a grain.
-inline double sample(const Stencil& s, const Field<Centre>& f) noexcept {
-  double value = 0;
-  for_each_cell(s, [&](std::int32_t n, double w) { value += w * f[n]; });
-  return value;
+/// Adds `amount` to one field with the same weights.
+template <Place P>
+inline void deposit(const Stencil& s, Strides stride, double amount, double* field) noexcept {
+  const Row along = amount * row_weights<P>(s);
+  for_each_row<P>(s, stride, [&](std::ptrdiff_t n, double w) { add_row(field + n, w * along); });
 }
 
-/// Adds `amount`, spread with the same weights, to a face field: the transpose of sample.
-inline void deposit(const Stencil& s, Vec3 amount, FaceFields& f) noexcept {
-  double *x = f.component(0), *y = f.component(1), *z = f.component(2);
-  for_each_face<0>(s, [&](std::int32_t n, double w) { x[n] += w * amount.x; });
-  for_each_face<1>(s, [&](std::int32_t n, double w) { y[n] += w * amount.y; });
-  for_each_face<2>(s, [&](std::int32_t n, double w) { z[n] += w * amount.z; });
+/// Value of a face field at a grain, one component per direction of the faces. Ghosts by extend_samples.
+inline Vec3 sample(const Stencil& s, Strides stride, const FaceFields& f) noexcept {
+  return {sample<on_x_faces>(s, stride, f.component(0)), sample<on_y_faces>(s, stride, f.component(1)), sample<on_z_faces>(s, stride, f.component(2))};
 }
+
+/// Adds `amount` to a face field: the transpose of sample. Ghosts go home by fold_deposits.
+inline void deposit(const Stencil& s, Strides stride, Vec3 amount, FaceFields& f) noexcept {
+  deposit<on_x_faces>(s, stride, amount.x, f.component(0));
+  deposit<on_y_faces>(s, stride, amount.y, f.component(1));
+  deposit<on_z_faces>(s, stride, amount.z, f.component(2));
+}
+
+/// Fills the ghosts that grains read: periodic copies; reflected at walls with the same sign (faces on a wall keep their own value).
+void extend_samples(const StaggeredGrid&, FaceFields&);
+void extend_samples(const StaggeredGrid&, Field<Centre>&);
+
+/// Adds what grains wrote into ghosts to the cells and faces they stand for, and clears the ghosts.
+void fold_deposits(const StaggeredGrid&, FaceFields&);
+void fold_deposits(const StaggeredGrid&, Field<Centre>&);
+
+/// Zero everywhere, ghosts too: before a deposit.
+inline void clear(FaceFields& f, double value = 0) {
+  for (int c = 0; c < 3; ++c) std::fill_n(f.component(c), f.x.values.size(), value);
+}
+inline void clear(Field<Centre>& f, double value = 0) { std::fill(f.values.begin(), f.values.end(), value); }
 
 }  // namespace bedload

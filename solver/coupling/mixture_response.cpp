@@ -5,14 +5,15 @@
 namespace bedload {
 namespace {
 
-void clear(FaceFields& f) {
-  for (int c = 0; c < 3; ++c) std::fill_n(f.component(c), f.x.values.size(), 0.0);
-}
-
-template <int C>
-void deposit_mobile(const Stencil& s, double exchange, double volume, double mass, MixtureResponse& m) noexcept {
-  double *b = m.mobile_exchange.component(C), *phi = m.mobile_fraction.component(C), *inertia = m.mobile_inertia.component(C);
-  for_each_face<C>(s, [=](std::int32_t n, double w) { b[n] += w * exchange, phi[n] += w * volume, inertia[n] += w * mass; });
+/// Exchange, volume and mass of one grain on the faces of one direction, in one pass over its rows.
+template <Place P>
+void deposit_mobile(const Stencil& s, Strides stride, double exchange, double volume, double mass, MixtureResponse& m) noexcept {
+  double *b = m.mobile_exchange.component(P), *phi = m.mobile_fraction.component(P), *inertia = m.mobile_inertia.component(P);
+  const Row along = row_weights<P>(s);
+  for_each_row<P>(s, stride, [=](std::ptrdiff_t n, double w) {
+    const Row weight = w * along;
+    add_row(b + n, exchange * weight), add_row(phi + n, volume * weight), add_row(inertia + n, mass * weight);
+  });
 }
 
 }  // namespace
@@ -20,17 +21,19 @@ void deposit_mobile(const Stencil& s, double exchange, double volume, double mas
 void find_mixture_response(const StaggeredGrid& g, const Grains& grains, std::span<const Stencil> stencils, std::span<const double> exchange,
                            double fluid_density, const FaceFields& void_fraction, bool model_b, MixtureResponse& m) {
   clear(m.locked_exchange), clear(m.mobile_exchange), clear(m.mobile_fraction), clear(m.mobile_inertia);
+  const Strides stride(g);
   for (std::size_t p = 0; p < grains.size(); ++p) {
     const double k = exchange[p];
     if (grains.fixed[p]) {
-      deposit(stencils[p], {k, k, k}, m.locked_exchange);
+      deposit(stencils[p], stride, {k, k, k}, m.locked_exchange);
       continue;
     }
     const double volume = sphere_volume(grains.diameter[p]) / g.cell_volume(), mass = volume * grains.density[p] / fluid_density;
-    deposit_mobile<0>(stencils[p], k, volume, mass, m);
-    deposit_mobile<1>(stencils[p], k, volume, mass, m);
-    deposit_mobile<2>(stencils[p], k, volume, mass, m);
+    deposit_mobile<on_x_faces>(stencils[p], stride, k, volume, mass, m);
+    deposit_mobile<on_y_faces>(stencils[p], stride, k, volume, mass, m);
+    deposit_mobile<on_z_faces>(stencils[p], stride, k, volume, mass, m);
   }
+  for (FaceFields* f : {&m.locked_exchange, &m.mobile_exchange, &m.mobile_fraction, &m.mobile_inertia}) fold_deposits(g, *f);
   for (int c = 0; c < 3; ++c) {
     double *cf = m.fluid.component(c), *cp = m.grains.component(c), *both = m.coefficient.component(c);
     const double *bl = m.locked_exchange.component(c), *bm = m.mobile_exchange.component(c), *phi = m.mobile_fraction.component(c),

@@ -1,50 +1,59 @@
 #include "solver/coupling/void_fraction.hpp"
 
+#include "solver/fluid/face_loops.hpp"
+
 namespace bedload {
 namespace {
 
-void clear(Field<Centre>& f, double value) { std::fill(f.values.begin(), f.values.end(), value); }
-void clear(FaceFields& f, double value) {
-  for (int c = 0; c < 3; ++c) std::fill_n(f.component(c), f.x.values.size(), value);
-}
-
-/// Splines of one direction before and after a move, on the five cells around the first position.
+/// The spline of one direction before a move and its change, on the four cells that a move of less than one cell can touch.
 struct MovedSpline {
-  double before[5] = {}, change[5] = {};
-  int first, last;   // cells in which either is not zero
-  int cell;          // number of the middle one
+  double before[4] = {}, change[4] = {};
+  int first;   // number of the first of the four cells
+  int count;   // how many of them are touched: 3, or 4 if the grain changed its cell
 
   MovedSpline(double s, double moved, int n) noexcept {
-    cell = std::clamp(static_cast<int>(std::floor(s)), 0, n - 1);
+    const int cell = cell_of(s, n);
     const int shift = std::clamp(static_cast<int>(std::floor(s + moved)) - cell, -1, 1);
+    const int start = shift < 0 ? 1 : 0, end = shift > 0 ? 1 : 0;
+    first = cell - 1 - start, count = 3 + start + end;
     const auto b = quadratic_spline(s - cell - 0.5);
     const auto a = quadratic_spline(s + moved - cell - shift - 0.5);
-    for (int m = 0; m < 3; ++m) before[1 + m] = b[m], change[1 + m] -= b[m];
-    for (int m = 0; m < 3; ++m) change[1 + shift + m] += a[m];
-    first = 1 + std::min(shift, 0), last = 3 + std::max(shift, 0);
+    for (int m = 0; m < 3; ++m) before[start + m] = b[m], change[start + m] -= b[m];
+    for (int m = 0; m < 3; ++m) change[end + m] += a[m];
+  }
+
+  /// What passes the lower face of each of the four cells.
+  void passed(double (&out)[4]) const noexcept {
+    out[0] = 0;
+    for (int m = 1; m < 4; ++m) out[m] = m < count ? out[m - 1] - change[m - 1] : 0;
   }
 };
 
-template <int C>
-void sweep(const StaggeredGrid& g, const MovedSpline (&spline)[3], double amount, double* flux) noexcept {
-  constexpr int D = C == 0 ? 1 : 0, E = C == 2 ? 1 : 2;
-  const MovedSpline &along = spline[C], &d = spline[D], &e = spline[E];
-  std::int32_t d_at[5], e_at[5];
-  for (int m = d.first; m <= d.last; ++m) d_at[m] = Stencil::place_cell(g, D, d.cell + m - 2) * static_cast<std::int32_t>(g.stride(D));
-  for (int m = e.first; m <= e.last; ++m) e_at[m] = Stencil::place_cell(g, E, e.cell + m - 2) * static_cast<std::int32_t>(g.stride(E));
-  double gone = 0;
-  for (int m = along.first; m < along.last; ++m) {
-    gone -= along.change[m];
-    const int face = along.cell + m - 1;   // right of cell (along.cell + m - 2)
-    if (!g.periodic(C) && (face <= 0 || face >= g.cells[C])) continue;
-    const std::int32_t at = Stencil::place_face(g, C, face) * static_cast<std::int32_t>(g.stride(C));
-    for (int p = d.first; p <= d.last; ++p)
-      for (int q = e.first; q <= e.last; ++q) {
-        const double across = d.before[p] * e.before[q] + 0.5 * (d.change[p] * e.before[q] + d.before[p] * e.change[q]) +
-                              d.change[p] * e.change[q] / 3;
-        flux[at + d_at[p] + e_at[q]] += amount * gone * across;
-      }
+inline Row row(const double (&v)[4]) noexcept { return Row{v[0], v[1], v[2], v[3]}; }
+
+/// Mean over the move of the product of two splines.
+inline double mean_product(double a, double da, double b, double db) noexcept { return a * b + 0.5 * (da * b + a * db) + da * db / 3; }
+
+/// Flux through faces normal to x or y: `along` in that direction, `across` in the other, z in rows.
+void sweep_horizontal(const MovedSpline& along, std::ptrdiff_t along_stride, const MovedSpline& across, std::ptrdiff_t across_stride,
+                      const MovedSpline& z, double amount, double* corner) noexcept {
+  double passed[4];
+  along.passed(passed);
+  const Row zb = row(z.before), zd = row(z.change);
+  for (int p = 0; p < across.count; ++p) {
+    const double b = across.before[p], d = across.change[p];
+    const Row mean = amount * (b * zb + 0.5 * (d * zb + b * zd) + d * zd / 3);
+    for (int m = 1; m < along.count; ++m) add_row(corner + m * along_stride + p * across_stride, passed[m] * mean);
   }
+}
+
+void sweep_vertical(const MovedSpline (&s)[3], Strides stride, double amount, double* corner) noexcept {
+  double passed[4];
+  s[2].passed(passed);
+  const Row through = amount * row(passed);
+  for (int a = 0; a < s[0].count; ++a)
+    for (int b = 0; b < s[1].count; ++b)
+      add_row(corner + a * stride.x + b * stride.y, mean_product(s[0].before[a], s[0].change[a], s[1].before[b], s[1].change[b]) * through);
 }
 
 }  // namespace
@@ -55,37 +64,48 @@ void find_stencils(const StaggeredGrid& grid, const Grains& grains, std::vector<
 }
 
 void deposit_void_fraction(const StaggeredGrid& grid, const Grains& grains, std::span<const Stencil> stencils, VoidFraction& eps) {
-  clear(eps.centre, 1);
-  clear(eps.face, 1);
+  clear(eps.centre), clear(eps.face);
   const double per_cell = 1 / grid.cell_volume();
+  const Strides stride(grid);
   for (std::size_t p = 0; p < grains.size(); ++p) {
     const double share = -sphere_volume(grains.diameter[p]) * per_cell;
-    for_each_cell(stencils[p], [&](std::int32_t n, double w) { eps.centre[n] += w * share; });
-    deposit(stencils[p], {share, share, share}, eps.face);
+    deposit<on_cells>(stencils[p], stride, share, eps.centre.data());
+    deposit(stencils[p], stride, {share, share, share}, eps.face);
   }
+  fold_deposits(grid, eps.centre), fold_deposits(grid, eps.face);
+  for (double& e : eps.centre.values) e += 1;
+  for (int c = 0; c < 3; ++c)
+    for (double *e = eps.face.component(c), *end = e + grid.padded_size(); e != end; ++e) *e += 1;
 }
 
 void deposit_solid_flux(const StaggeredGrid& grid, const Grains& grains, std::span<const Stencil> stencils, FaceFields& flux) {
-  clear(flux, 0);
+  clear(flux);
   const double per_cell = 1 / grid.cell_volume();
+  const Strides stride(grid);
   for (std::size_t p = 0; p < grains.size(); ++p)
-    if (!grains.fixed[p]) deposit(stencils[p], sphere_volume(grains.diameter[p]) * per_cell * grains.velocity[p], flux);
+    if (!grains.fixed[p]) deposit(stencils[p], stride, sphere_volume(grains.diameter[p]) * per_cell * grains.velocity[p], flux);
+  fold_deposits(grid, flux);
+  clear_walls(grid, flux);
 }
 
 void deposit_swept_flux(const StaggeredGrid& grid, const Grains& grains, std::span<const Vec3> before, std::span<const Vec3> moved,
                         double dt, FaceFields& flux) {
-  clear(flux, 0);
+  clear(flux);
   const double per_step = 1 / (grid.cell_volume() * dt);
+  const Strides stride(grid);
   for (std::size_t p = 0; p < grains.size(); ++p) {
     if (grains.fixed[p]) continue;
-    const MovedSpline spline[3] = {{before[p].x / grid.h.x, moved[p].x / grid.h.x, grid.cells[0]},
-                                   {before[p].y / grid.h.y, moved[p].y / grid.h.y, grid.cells[1]},
-                                   {before[p].z / grid.h.z, moved[p].z / grid.h.z, grid.cells[2]}};
+    const MovedSpline s[3] = {{before[p].x / grid.h.x, moved[p].x / grid.h.x, grid.cells[0]},
+                              {before[p].y / grid.h.y, moved[p].y / grid.h.y, grid.cells[1]},
+                              {before[p].z / grid.h.z, moved[p].z / grid.h.z, grid.cells[2]}};
+    const std::size_t corner = grid.index(s[0].first, s[1].first, s[2].first);
     const double amount = sphere_volume(grains.diameter[p]) * per_step;
-    sweep<0>(grid, spline, amount * grid.h.x, flux.component(0));
-    sweep<1>(grid, spline, amount * grid.h.y, flux.component(1));
-    sweep<2>(grid, spline, amount * grid.h.z, flux.component(2));
+    sweep_horizontal(s[0], stride.x, s[1], stride.y, s[2], amount * grid.h.x, flux.component(0) + corner);
+    sweep_horizontal(s[1], stride.y, s[0], stride.x, s[2], amount * grid.h.y, flux.component(1) + corner);
+    sweep_vertical(s, stride, amount * grid.h.z, flux.component(2) + corner);
   }
+  fold_deposits(grid, flux);
+  clear_walls(grid, flux);
 }
 
 }  // namespace bedload
