@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "solver/bed/flow_ramp.hpp"
@@ -49,6 +50,12 @@ struct Scene {
   RecordPlan record;
   bool bed_only = false;         // finished once the bed has settled (a bed directory)
 };
+
+/// Why a scene cannot run: the parameter by its name in a study file, what is wrong with it, the likely fix.
+struct SceneProblem {
+  std::string parameter, message, hint;
+};
+std::vector<SceneProblem> problems_of(const Scene&);
 
 /// Refuses a scene that cannot run (ErrorKind::study_invalid), all problems in one message, one per line.
 void validate(const Scene&);

@@ -1,0 +1,124 @@
+// From inputs to the scene that the solver runs.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "solver/coupling/drag_laws.hpp"
+#include "studies/case_inputs.hpp"
+#include "studies/study_keys.hpp"
+
+namespace bedload {
+
+namespace {
+
+/// The number, or zero while inputs are still being resolved.
+double number_or_zero(const CaseInputs& inputs, std::string_view key) { return inputs.has(key) ? inputs.number(key) : 0; }
+
+BedSource source_of(const CaseInputs& inputs) {
+  using Kind = BedSource::Kind;
+  const auto& source = inputs.word("bed.source");
+  const Kind kind = source == "poured" ? Kind::poured : source == "lattice" ? Kind::lattice : source == "file" ? Kind::file : Kind::none;
+  BedSource made{.kind = kind, .csv = inputs.csv};
+  made.count = static_cast<std::uint64_t>(number_or_zero(inputs, "bed.count"));
+  if (inputs.has("bed.seed")) made.seed = static_cast<std::uint64_t>(inputs.number("bed.seed"));
+  return made;
+}
+
+Side side_of(const CaseInputs& inputs, std::string_view key) {
+  return inputs.word(key) == "periodic" ? Side::periodic : Side::wall;
+}
+
+/// A slope tilts gravity about y: a positive one drives along +x.
+Vec3 gravity_of(const CaseInputs& inputs) {
+  const double g = inputs.number("box.gravity"), slope = inputs.number("box.slope");
+  return {g * std::sin(slope), 0, -g * std::cos(slope)};
+}
+
+BedScene bed_scene_of(const CaseInputs& inputs) {
+  BedScene bed;
+  bed.fluid = {inputs.number("fluid.density"), inputs.number("fluid.viscosity")};
+  bed.grains = {.diameter = inputs.number("grains.diameter"),
+                .density = inputs.number("grains.density"),
+                .spread = inputs.number("grains.spread"),
+                .friction = inputs.number("grains.friction"),
+                .restitution = inputs.number("grains.restitution"),
+                .poisson = inputs.number("grains.poisson"),
+                .young_modulus = number_or_zero(inputs, "grains.stiffness")};
+  bed.source = source_of(inputs);
+  bed.length = {inputs.number("box.length"), inputs.number("box.width"), inputs.number("box.height")};
+  bed.sides = {side_of(inputs, "box.x"), side_of(inputs, "box.y"), side_of(inputs, "box.z")};
+  bed.top = inputs.word("box.top") == "lid" ? Top::lid : Top::free_slip;
+  bed.gravity = gravity_of(inputs);
+  bed.dem_step = number_or_zero(inputs, "steps.dem");
+  return bed;
+}
+
+/// Cells of about the size asked for, a whole number of them along each edge.
+StaggeredGrid grid_of(const CaseInputs& inputs, const BedScene& bed) {
+  StaggeredGrid grid{.sides = bed.sides, .top = bed.top};
+  const double asked[] = {inputs.number("box.cell.xy"), inputs.number("box.cell.xy"), inputs.number("box.cell.z")};
+  for (int c = 0; c < 3; ++c) {
+    grid.cells[c] = std::max(1, static_cast<int>(std::lround(bed.length[c] / asked[c])));
+    grid.h[c] = bed.length[c] / grid.cells[c];
+  }
+  return grid;
+}
+
+std::vector<double> levels_of(const CaseInputs& inputs, const std::string& table) {
+  double level = inputs.number(table + ".from");
+  std::vector<double> levels;
+  for (int k = 0; k < inputs.number(table + ".steps"); ++k) {
+    levels.push_back(level);
+    if (inputs.has(table + ".ratio")) level *= inputs.number(table + ".ratio");
+    else level = inputs.number(table + ".from") + (k + 1) * number_or_zero(inputs, table + ".step");
+  }
+  return levels;
+}
+
+FlowRamp drive_of(const CaseInputs& inputs) {
+  FlowRamp ramp{.levels = {0}, .dwell = inputs.number("drive.dwell")};
+  const auto& kind = inputs.word("drive.kind");
+  const std::string table(staircase_of(inputs));
+  if (kind == "none" || table.empty()) return ramp;
+  ramp.kind = kind == "lid" ? FlowRamp::Kind::lid : FlowRamp::Kind::pressure;
+  ramp.quantity = table == "drive.shields" ? FlowRamp::Quantity::shields
+                  : table == "drive.speed" ? FlowRamp::Quantity::lid_speed
+                                           : FlowRamp::Quantity::gradient;
+  ramp.levels = levels_of(inputs, table);
+  return ramp;
+}
+
+Terms terms_of(const CaseInputs& inputs) {
+  const auto& names = std::get<std::vector<std::string>>(inputs.values.at("models.terms"));
+  const auto on = [&](const char* term) { return std::ranges::find(names, term) != names.end(); };
+  return {on("drag"), on("buoyancy"), on("pressure_gradient"), on("viscous_stress")};
+}
+
+}  // namespace
+
+DragLawName drag_law_named(std::string_view name) {
+  for (const auto law : {DragLawName::stokes, DragLawName::schiller_naumann, DragLawName::di_felice})
+    if (name_of(law) == name) return law;
+  throw Error(ErrorKind::internal, fmt::format("\"{}\" is a drag law of study files, but not of the solver", name));
+}
+
+Scene scene_of(const CaseInputs& inputs) {
+  Scene scene;
+  scene.bed = bed_scene_of(inputs);
+  scene.bed_only = inputs.bed_only;
+  scene.grid = grid_of(inputs, scene.bed);
+  scene.drive = drive_of(inputs);
+  scene.onset.method = inputs.word("onset.method") == "ramp" ? Onset::Method::ramp : Onset::Method::none;
+  scene.onset.criterion = inputs.word("onset.criterion") == "flux" ? Onset::Criterion::flux : Onset::Criterion::moving_fraction;
+  scene.onset.value = inputs.number("onset.value");
+  scene.drag = drag_law_named(inputs.word("models.drag"));
+  scene.terms = terms_of(inputs);
+  scene.steps.fluid_interval = number_or_zero(inputs, "steps.fluid");
+  scene.record.every = inputs.number("record.every");
+  scene.record.tracks = std::get<std::vector<std::uint64_t>>(inputs.values.at("record.tracks"));
+  return scene;
+}
+
+}  // namespace bedload

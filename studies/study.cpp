@@ -1,0 +1,153 @@
+// Axes to cases.
+#include "studies/study.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "solver/grains/bed_packing.hpp"
+#include "studies/case_identity.hpp"
+#include "studies/study_keys.hpp"
+
+namespace bedload {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Choice = std::vector<const Setting*>;   // one value per axis
+
+/// All combinations; the last axis varies fastest.
+std::vector<Choice> product(const std::vector<Axis>& axes) {
+  std::vector<Choice> choices{{}};
+  for (const auto& axis : axes) {
+    std::vector<Choice> longer;
+    for (const auto& choice : choices)
+      for (const auto& value : axis.values) {
+        longer.push_back(choice);
+        longer.back().push_back(&value);
+      }
+    choices = std::move(longer);
+  }
+  return choices;
+}
+
+bool excluded(const Study& study, const Choice& choice) {
+  const auto matches = [&](const Settings& exclusion) {
+    if (exclusion.empty()) return false;
+    return std::ranges::all_of(exclusion, [&](const auto& entry) {
+      for (std::size_t a = 0; a < study.axes.size(); ++a)
+        if (study.axes[a].key == entry.first) return same_value(*choice[a], entry.second);
+      return false;
+    });
+  };
+  return std::ranges::any_of(study.exclusions, matches);
+}
+
+/// The value as it stands in a label: "0.5 mm" -> 0.5mm, "2000 kg/m3" -> 2000, a list of terms -> its initials.
+std::string in_label(const Setting& setting) {
+  if (const auto* words = std::get_if<std::vector<std::string>>(&setting.value)) {
+    std::string initials;
+    for (const auto& word : *words) initials += word[0];
+    return initials;
+  }
+  std::string text;
+  const bool density = std::holds_alternative<Quantity>(setting.value) && std::get<Quantity>(setting.value).dimension == dimension::density;
+  const auto end = density && setting.text.ends_with("kg/m3") ? setting.text.size() - 5 : setting.text.size();
+  for (const char c : setting.text.substr(0, end)) {
+    if (c == ' ') continue;
+    text += c == '/' || c == '*' || c == '[' || c == ']' || c == ',' ? '_' : c;
+  }
+  return text;
+}
+
+void append(std::string& label, const std::string& part) { label += (label.empty() ? "" : "-") + part; }
+
+/// Label of a set: its place on every axis but the seed's.
+std::string label_of(const Study& study, const Choice& choice) {
+  std::string label;
+  for (std::size_t a = 0; a < study.axes.size(); ++a) {
+    const auto& key = study.axes[a].key;
+    if (key != "bed.seed") append(label, std::string(find_key(key)->label) + in_label(*choice[a]));
+  }
+  return label;
+}
+
+Settings settings_of(const Study& study, const Choice& choice) {
+  Settings settings = study.settings;
+  for (std::size_t a = 0; a < study.axes.size(); ++a) settings[study.axes[a].key] = *choice[a];
+  return settings;
+}
+
+Place place_in(const Settings& settings, std::string_view key) {
+  if (const auto found = settings.find(key); found != settings.end()) return found->second.place;
+  const auto table = fmt::format("{}.", key.substr(0, key.find('.')));
+  for (const auto& [other, setting] : settings)
+    if (other.starts_with(table)) return setting.place;   // the key is left out: its table
+  return {};
+}
+
+/// Grains that cannot be placed: found by placing them, once per bed.
+void check_placing(const Scene& scene, const Settings& settings, Problems& problems) {
+  try {
+    place_grains(scene.bed);
+  } catch (const Error& error) {
+    const std::string key = scene.bed.source.kind == BedSource::Kind::file ? "bed.file" : "bed.count";
+    problems.add(place_in(settings, key), fmt::format("{}: {}", key, error.what()), error.hint);
+  }
+}
+
+Case make_case(const Study& study, const Choice& choice, CaseInputs inputs) {
+  Case made;
+  made.id = case_id(inputs), made.set = parameter_set_id(inputs), made.bed_id = bed_id(inputs);
+  made.set_label = label_of(study, choice);
+  made.label = made.set_label;
+  if (inputs.has("bed.seed")) {
+    made.seed = static_cast<std::uint64_t>(inputs.number("bed.seed"));
+    append(made.label, fmt::format("s{}", made.seed));
+  }
+  if (made.label.empty()) made.label = "case";
+  if (made.set_label.empty()) made.set_label = study.name;
+  made.scene = scene_of(inputs);
+  made.inputs = std::move(inputs);
+  return made;
+}
+
+/// Two ways to write the same case ("0.5 mm" and "1 d") would be run once and counted twice.
+void check_twins(const std::vector<Case>& cases, Problems& problems) {
+  std::map<std::string, std::string> seen;
+  for (const auto& one : cases) {
+    const auto [earlier, is_new] = seen.emplace(one.id, one.label);
+    if (!is_new) problems.add({}, fmt::format("{} and {} are the same case", earlier->second, one.label), "remove one of the values");
+  }
+}
+
+}  // namespace
+
+std::vector<Case> unfold(const Study& study) {
+  Problems problems(study.file.string());
+  std::vector<Case> cases;
+  std::set<std::string> placed;
+  for (const auto& choice : product(study.axes)) {
+    if (excluded(study, choice)) continue;
+    const auto settings = settings_of(study, choice);
+    auto inputs = resolve(settings, study.file.parent_path(), problems);
+    if (!problems.empty()) continue;
+    auto one = make_case(study, choice, std::move(inputs));
+    for (const auto& p : problems_of(one.scene)) problems.add(place_in(settings, p.parameter), fmt::format("{}: {}", p.parameter, p.message), p.hint);
+    if (problems.empty() && placed.insert(one.bed_id.empty() ? one.id : one.bed_id).second) check_placing(one.scene, settings, problems);
+    cases.push_back(std::move(one));
+  }
+  check_twins(cases, problems);
+  if (problems.empty() && cases.empty()) problems.add({}, "every case is excluded", "remove an [[exclude]]");
+  problems.throw_if_any();
+  return cases;
+}
+
+fs::path result_directory(const Study& study, const std::optional<fs::path>& out) {
+  return out ? *out : study.file.parent_path() / study.name;
+}
+
+}  // namespace bedload

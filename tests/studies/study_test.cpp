@@ -1,0 +1,98 @@
+// Axes to cases: which there are, what they are called, what keeps their identity.
+#include "studies/study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "studies/case_identity.hpp"
+#include "tests/studies/study_fixture.hpp"
+
+namespace bedload {
+namespace {
+
+std::vector<Case> cases_of(const std::string& text) { return unfold(parse_study(text, "study.toml")); }
+
+std::set<std::string> ids_of(const std::string& text) {
+  std::set<std::string> ids;
+  for (const auto& one : cases_of(text)) ids.insert(one.id);
+  return ids;
+}
+
+TEST(Study, UnfoldsTheProductOfItsAxes) {
+  const auto cases = cases_of(good_study);
+  ASSERT_EQ(cases.size(), 8u);
+  EXPECT_EQ(ids_of(good_study).size(), 8u);
+  EXPECT_EQ(cases[0].label, "d0.5mm-rho2000-s1");
+  EXPECT_EQ(cases[0].set_label, "d0.5mm-rho2000");
+  EXPECT_EQ(cases[1].label, "d0.5mm-rho2000-s2");
+  EXPECT_EQ(cases[7].label, "d0.6mm-rho3000-s2");
+  EXPECT_EQ(cases[0].set, cases[1].set);
+  EXPECT_NE(cases[0].set, cases[2].set);
+}
+
+TEST(Study, LeavesOutWhatIsExcluded) {
+  const auto cases = cases_of(good_study + "\n[[exclude]]\ngrains.diameter = \"600 um\"\ngrains.density = \"3000 kg/m3\"\n");
+  EXPECT_EQ(cases.size(), 6u);
+  for (const auto& one : cases) EXPECT_NE(one.set_label, "d0.6mm-rho3000");
+}
+
+TEST(Study, RefusesAnExclusionThatNamesNoAxis) {
+  EXPECT_NE(complaint(good_study + "\n[[exclude]]\ngrains.spread = 0.05\n").find("grains.spread does not vary"), std::string::npos);
+}
+
+TEST(Study, MeasuresInGrainsOfEachCase) {
+  const auto cases = cases_of(good_study);
+  EXPECT_DOUBLE_EQ(cases[0].scene.bed.length.x, 5e-3);
+  EXPECT_DOUBLE_EQ(cases[7].scene.bed.length.x, 6e-3);
+  EXPECT_EQ(cases[0].scene.grid.cells, (std::array{5, 3, 26}));
+}
+
+TEST(Study, KeepsIdsWhenOnlyTheOnsetCriterionChanges) {
+  EXPECT_EQ(ids_of(good_study), ids_of(with(good_study, "[drive]", "[onset]\ncriterion = \"moving_fraction\"\nvalue = 0.02\n[drive]")));
+}
+
+TEST(Study, KeepsIdsWhenTheRampGrowsLonger) {
+  EXPECT_EQ(ids_of(good_study), ids_of(with(good_study, "steps = 12", "steps = 20")));
+}
+
+TEST(Study, KeepsIdsWhenOnlyTheWayOfRunningOrTheUnitsChange) {
+  EXPECT_EQ(ids_of(good_study), ids_of(with(good_study, "[drive]", "[run]\ncores = 2\n[drive]")));
+  EXPECT_EQ(ids_of(good_study), ids_of(with(good_study, "name = \"screening\"", "name = \"other\"")));
+  EXPECT_EQ(ids_of(good_study), ids_of(with(good_study, "\"0.5 mm\"", "\"500 um\"")));
+}
+
+TEST(Study, RenamesCasesWhosePhysicsChanges) {
+  const auto ids = ids_of(good_study);
+  for (const auto& changed : {with(good_study, "spread = 0.05", "spread = 0.06"), with(good_study, "from = 0.06", "from = 0.07"),
+                              with(good_study, "ratio = 1.2", "ratio = 1.3"), with(good_study, "\"25 td\"", "\"30 td\""),
+                              with(good_study, "[drive]", "[models]\nterms = [\"drag\", \"buoyancy\"]\n[drive]")}) {
+    for (const auto& id : ids_of(changed)) EXPECT_FALSE(ids.contains(id));
+  }
+}
+
+TEST(Study, SharesABedAmongCasesThatDifferOnlyInTheirFlow) {
+  const auto slow = cases_of(good_study), fast = cases_of(with(good_study, "from = 0.06", "from = 0.07"));
+  for (std::size_t n = 0; n < slow.size(); ++n) EXPECT_EQ(slow[n].bed_id, fast[n].bed_id);
+  EXPECT_NE(slow[0].bed_id, slow[1].bed_id);
+}
+
+TEST(Study, PoursToADepth) {
+  const auto cases = cases_of(with(good_study, "count = 300", "depth = \"4 d\""));
+  // 4 d x 60 d2 x 0.58 / (pi/6 d3 (1 + 3 0.05^2)) = 263.9
+  EXPECT_EQ(cases[0].scene.bed.source.count, 264u);
+}
+
+TEST(Study, ChoosesADemStepOfAFifthOfTheSmallestGrainsRayleighTime) {
+  const auto cases = cases_of(good_study);
+  const auto& bed = cases[0].scene.bed;
+  const double d = bed.grains.diameter * 0.9, shear_modulus = bed.grains.young_modulus / (2 * 1.3);
+  const double rayleigh = 3.14159265358979 * d / 2 * std::sqrt(bed.grains.density / shear_modulus) / (0.1631 * 0.3 + 0.8766);
+  EXPECT_NEAR(bed.dem_step / rayleigh, 0.2, 2e-4);
+  EXPECT_DOUBLE_EQ(cases[0].scene.steps.fluid_interval, 10 * bed.dem_step);
+}
+
+}  // namespace
+}  // namespace bedload
