@@ -16,7 +16,7 @@ namespace {
 
 constexpr double line_every = 60;       // [s], where nothing can be repainted
 constexpr std::size_t most_lines = 16;  // of cases at work, on a terminal
-constexpr int bar_width = 20;
+constexpr int bar_width = 10;
 
 std::string bar(double fraction) {
   const auto full = static_cast<std::size_t>(std::lround(std::clamp(fraction, 0.0, 1.0) * bar_width));
@@ -29,8 +29,8 @@ std::string position_of(const RunningCase& c) {
 }
 
 std::string line_of(const RunningCase& c) {
-  std::string line = fmt::format("  {:<28} {} {:3.0f} %  {}", c.label, bar(c.fraction), 100 * c.fraction, position_of(c));
-  if (c.left >= 0) line += fmt::format(", at most {}", duration_text(c.left));
+  std::string line = fmt::format("  {:<20} {} {:3.0f} %  {}", c.label, bar(c.fraction), 100 * c.fraction, position_of(c));
+  if (c.left >= 0) line += fmt::format(", {} left", duration_text(c.left));
   if (c.silent > line_every) line += fmt::format(", silent for {}", duration_text(c.silent));
   return line;
 }

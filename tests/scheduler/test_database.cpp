@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "scheduler/database.hpp"
+#include "tests/scheduler/temporary_directory.hpp"
 
 namespace bedload {
 namespace {
@@ -15,12 +16,6 @@ namespace fs = std::filesystem;
 
 class StudyDatabase : public testing::Test {
  protected:
-  StudyDatabase() {
-    fs::remove_all(directory_);
-    fs::create_directories(directory_);
-  }
-  ~StudyDatabase() override { fs::remove_all(directory_); }
-
   static ErrorKind refusal(const std::function<void()>& action) {
     try {
       action();
@@ -31,9 +26,8 @@ class StudyDatabase : public testing::Test {
     return ErrorKind::internal;
   }
 
-  fs::path directory_ = fs::path(testing::TempDir()) /
-                        testing::UnitTest::GetInstance()->current_test_info()->name();
-  fs::path file_ = directory_ / "study.db";
+  TemporaryDirectory temporary_;
+  fs::path directory_ = temporary_.path(), file_ = directory_ / "study.db";
 };
 
 TEST_F(StudyDatabase, GivesBackWhatWasWritten) {

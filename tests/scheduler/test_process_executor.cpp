@@ -1,6 +1,5 @@
 // Real processes under the process executor.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include "base/durable_file.hpp"
 #include "base/error.hpp"
 #include "scheduler/process_executor.hpp"
+#include "tests/scheduler/temporary_directory.hpp"
 
 namespace bedload {
 namespace {
@@ -17,12 +17,6 @@ namespace fs = std::filesystem;
 
 class Processes : public testing::Test {
  protected:
-  Processes() {
-    fs::remove_all(directory_);
-    fs::create_directories(directory_);
-  }
-  ~Processes() override { fs::remove_all(directory_); }
-
   /// Runs a shell script whose $0 is the case directory until it ends.
   JobEnd run(const std::string& script, int attempt = 1) {
     ProcessExecutor executor({"/bin/sh", "-c", script});
@@ -37,7 +31,8 @@ class Processes : public testing::Test {
   }
   std::string log(int attempt) { return read_text(directory_ / ("log." + std::to_string(attempt))); }
 
-  fs::path directory_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  TemporaryDirectory temporary_;
+  fs::path directory_ = temporary_.path();
 };
 
 TEST_F(Processes, ReportTheirExitCode) {
