@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scheduler/database.hpp"
+#include "solver/required_models.hpp"
 #include "solver/scene.hpp"
 #include "solver/state.hpp"
 
@@ -20,14 +21,6 @@ struct CaseIdentity {
   std::uint64_t seed = 1;
 };
 
-/// One term of the model, with the ratio that decided it.
-struct ModelRow {
-  std::string term;
-  bool on = false;
-  double ratio = 0;      // [-]; nan if no number decided
-  std::string reason;    // one sentence
-};
-
 /// What made the numbers.
 struct Provenance {
   std::string version;     // of bedload, with git sha
@@ -40,9 +33,9 @@ struct Provenance {
 /// Creates the result tables and views that are not there yet.
 void create_result_tables(Database&);
 
-/// Replaces every row of the case and recomputes the threshold curve. The caller holds the transaction: results,
-/// the curve that rests on them and the case's state change together.
-void store_results(Database&, const CaseIdentity&, const Scene&, const State&, const std::vector<ModelRow>&,
+/// Replaces every row of the case and recomputes the threshold curve, in one transaction (a part of the caller's, if
+/// one is open).
+void store_results(Database&, const CaseIdentity&, const Scene&, const State&, const std::vector<ModelChoice>&,
                    const Provenance&);
 
 }  // namespace bedload

@@ -24,7 +24,8 @@ struct ThresholdPoint {
   std::uint64_t bracketed = 0, censored_below = 0, censored_above = 0, noisy = 0;   // of them
 };
 
-/// Recomputes table threshold_curve from the thresholds of the cases in the study. Within the caller's transaction.
+/// Recomputes table threshold_curve from the thresholds of the cases that are in the study, in one transaction. Called
+/// with every case's results; to be called too when cases leave or rejoin the study.
 void update_threshold_curve(Database&);
 
 /// The curve, ordered by diameter, density ratio, viscosity, then parameter set.

@@ -1,0 +1,164 @@
+// The tables that results live in: SI, the unit in the column's name, NULL where a number is not known.
+#pragma once
+
+#include <string_view>
+
+namespace bedload {
+
+/// Statements that make what is missing. Columns are in the order in which results.cpp and threshold_curve.cpp fill them.
+inline constexpr std::string_view result_tables = R"sql(
+CREATE TABLE IF NOT EXISTS scenes (                -- one row per finished case: what the dimensionless numbers are made of
+  case_id                   TEXT PRIMARY KEY,
+  label                     TEXT NOT NULL,
+  parameter_set             TEXT NOT NULL,         -- shared by the seeds
+  set_label                 TEXT NOT NULL,
+  seed                      INTEGER NOT NULL,      -- of the packing
+  diameter_m                REAL NOT NULL,         -- mean
+  spread                    REAL NOT NULL,         -- standard deviation / mean
+  grain_density_kg_per_m3   REAL NOT NULL,
+  fluid_density_kg_per_m3   REAL NOT NULL,
+  density_ratio             REAL NOT NULL,         -- s
+  viscosity_m2_per_s        REAL NOT NULL,         -- kinematic
+  gravity_m_per_s2          REAL NOT NULL,
+  galileo                   REAL,                  -- sqrt((s-1) g d^3)/nu
+  young_modulus_pa          REAL NOT NULL,
+  grains                    INTEGER NOT NULL,
+  surface_grains            REAL NOT NULL,         -- N_s = 0.8 A/(pi d^2/4)
+  length_m                  REAL NOT NULL,
+  width_m                   REAL NOT NULL,
+  height_m                  REAL NOT NULL,
+  cell_x_m                  REAL NOT NULL,
+  cell_y_m                  REAL NOT NULL,
+  cell_z_m                  REAL NOT NULL,
+  drag_law                  TEXT NOT NULL,
+  dwell_s                   REAL NOT NULL,
+  dem_step_s                REAL NOT NULL,
+  fluid_step_limit_s        REAL NOT NULL
+) STRICT;
+
+CREATE TABLE IF NOT EXISTS ramp_points (           -- one row per hold, means over its last half
+  case_id                   TEXT NOT NULL,
+  hold                      INTEGER NOT NULL,
+  start_s                   REAL NOT NULL,
+  end_s                     REAL NOT NULL,
+  shields_nominal           REAL NOT NULL,         -- imposed
+  shields                   REAL NOT NULL,         -- measured by the momentum balance of the bed
+  shear_velocity_m_per_s    REAL,                  -- u*
+  friction_reynolds         REAL,                  -- Re* = u* d/nu
+  lid_speed_m_per_s         REAL NOT NULL,
+  drive_m_per_s2            REAL NOT NULL,         -- driving gradient per mass of fluid
+  event_flux                REAL NOT NULL,         -- passages of d/2 downstream per surface grain and grain time
+  event_flux_error          REAL NOT NULL,         -- its standard error
+  transport                 REAL,                  -- q* = q/sqrt((s-1) g d^3)
+  transport_error           REAL,
+  moving_fraction           REAL NOT NULL,         -- grains faster than 0.01 sqrt((s-1) g d), per surface grain
+  bed_height_m              REAL NOT NULL,
+  roughness_m               REAL NOT NULL,
+  porosity                  REAL NOT NULL,
+  coordination              REAL NOT NULL,
+  momentum_residual         REAL,                  -- in units of a Shields number
+  PRIMARY KEY (case_id, hold)
+) STRICT;
+
+CREATE TABLE IF NOT EXISTS thresholds (            -- per case and criterion
+  case_id                   TEXT NOT NULL,
+  criterion                 TEXT NOT NULL,         -- flux | moving_fraction
+  value                     REAL NOT NULL,
+  decides                   INTEGER NOT NULL,      -- 1 = the study's own criterion, of which the curve is made
+  status                    TEXT NOT NULL,         -- bracketed | censored_below | censored_above | noisy
+  shields                   REAL,                  -- theta_c
+  shields_lower             REAL,
+  shields_upper             REAL,
+  PRIMARY KEY (case_id, criterion, value)
+) STRICT;
+
+CREATE TABLE IF NOT EXISTS bed_statistics (        -- profiles; hold -1 = the settled bed
+  case_id                   TEXT NOT NULL,
+  hold                      INTEGER NOT NULL,
+  z_m                       REAL NOT NULL,
+  porosity                  REAL NOT NULL,
+  fluid_velocity_m_per_s    REAL NOT NULL,
+  grain_velocity_m_per_s    REAL NOT NULL,
+  PRIMARY KEY (case_id, hold, z_m)
+) STRICT;
+
+CREATE TABLE IF NOT EXISTS samples (               -- the bed in time, means since the sample before
+  case_id                   TEXT NOT NULL,
+  time_s                    REAL NOT NULL,
+  hold                      INTEGER NOT NULL,
+  shields_nominal           REAL NOT NULL,
+  shields                   REAL NOT NULL,
+  event_flux                REAL NOT NULL,
+  moving_fraction           REAL NOT NULL,
+  bed_height_m              REAL NOT NULL,
+  roughness_m               REAL NOT NULL,
+  coordination              REAL NOT NULL,
+  mean_grain_speed_m_per_s  REAL NOT NULL,
+  deepest_overlap           REAL NOT NULL,         -- of the step sampled, per diameter
+  momentum_residual         REAL,
+  PRIMARY KEY (case_id, time_s)
+) STRICT;
+
+CREATE TABLE IF NOT EXISTS tracks (                -- trajectories of record.tracks
+  case_id                   TEXT NOT NULL,
+  grain                     INTEGER NOT NULL,
+  time_s                    REAL NOT NULL,
+  x_m                       REAL NOT NULL,
+  y_m                       REAL NOT NULL,
+  z_m                       REAL NOT NULL,
+  vx_m_per_s                REAL NOT NULL,
+  vy_m_per_s                REAL NOT NULL,
+  vz_m_per_s                REAL NOT NULL,
+  PRIMARY KEY (case_id, grain, time_s)
+) STRICT;
+
+CREATE TABLE IF NOT EXISTS models (
+  case_id                   TEXT NOT NULL,
+  position                  INTEGER NOT NULL,
+  term                      TEXT NOT NULL,
+  is_on                     INTEGER NOT NULL,
+  is_wanted                 INTEGER NOT NULL,      -- by the rules
+  ratio                     REAL,                  -- the number that decided
+  reason                    TEXT NOT NULL,
+  PRIMARY KEY (case_id, term)
+) STRICT;
+
+CREATE TABLE IF NOT EXISTS provenance (
+  case_id                   TEXT PRIMARY KEY,
+  version                   TEXT NOT NULL,
+  physics_version           INTEGER NOT NULL,
+  compiler                  TEXT NOT NULL,
+  flags                     TEXT NOT NULL,
+  libraries                 TEXT NOT NULL,
+  host                      TEXT NOT NULL,
+  seed                      INTEGER NOT NULL,
+  state_digest              TEXT NOT NULL          -- of the final state: the same study gives the same
+) STRICT;
+
+CREATE TABLE IF NOT EXISTS threshold_curve (       -- per parameter set, over its seeds
+  parameter_set             TEXT PRIMARY KEY,
+  label                     TEXT NOT NULL,
+  diameter_m                REAL NOT NULL,
+  density_ratio             REAL NOT NULL,
+  viscosity_m2_per_s        REAL NOT NULL,
+  galileo                   REAL,
+  friction_reynolds         REAL,                  -- Re* at shields, or at the one bound there is
+  shields                   REAL,                  -- theta_c, median
+  shields_lower             REAL,                  -- lowest bound; NULL = open
+  shields_upper             REAL,                  -- highest bound; NULL = open
+  status                    TEXT NOT NULL,
+  seeds                     INTEGER NOT NULL,
+  bracketed                 INTEGER NOT NULL,
+  censored_below            INTEGER NOT NULL,
+  censored_above            INTEGER NOT NULL,
+  noisy                     INTEGER NOT NULL
+) STRICT;
+
+CREATE VIEW IF NOT EXISTS transport_curve AS
+  SELECT s.label, s.set_label, s.seed, s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, r.hold, r.shields,
+         r.friction_reynolds, r.event_flux, r.event_flux_error, r.transport, r.transport_error, r.moving_fraction, r.case_id
+  FROM ramp_points r JOIN scenes s USING (case_id)
+  ORDER BY s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.parameter_set, s.seed, r.hold;
+)sql";
+
+}  // namespace bedload

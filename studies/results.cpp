@@ -1,0 +1,143 @@
+// Scene and record to rows.
+#include "studies/results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "solver/bed/incipient_motion.hpp"
+#include "solver/coupling/drag_laws.hpp"
+#include "solver/dimensionless.hpp"
+#include "studies/database_values.hpp"
+#include "studies/result_tables.hpp"
+#include "studies/threshold_curve.hpp"
+
+namespace bedload {
+
+namespace {
+
+Value whole(double number) { return static_cast<std::int64_t>(std::llround(number)); }
+Value whole(std::uint64_t number) { return static_cast<std::int64_t>(number); }
+Value flag(bool is) { return std::int64_t{is}; }
+Value known(double residual) { return residual < 0 ? Value() : Value(residual); }   // the record's "not known" is -1
+
+/// Values in the order of the table's columns.
+void insert(Database& database, std::string_view table, const std::vector<Value>& values) {
+  std::string places;
+  for (std::size_t n = 0; n < values.size(); ++n) places += n ? ", ?" : "?";
+  database.execute(fmt::format("INSERT INTO {} VALUES ({})", table, places), values);
+}
+
+struct Scales {
+  explicit Scales(const Scene& scene)
+      : d(scene.bed.grains.diameter), s(scene.bed.grains.density / scene.bed.fluid.density), g(norm(scene.bed.gravity)),
+        nu(scene.bed.fluid.viscosity), galileo(galileo_number(s, g, d, nu)),
+        grain_time(s > 1 && g > 0 ? bedload::grain_time(d, s, g, terminal_speed(scene.drag, nu, s, d, g)) : 0) {}
+
+  /// q* of a flux of events: each carries one grain's volume over d/2, so that
+  /// q = flux N_s/(t_d A) (pi d^3/6) (d/2), with N_s/A = 0.8/(pi d^2/4).
+  double transport(double event_flux, double surface_grains_per_area) const {
+    const double q = event_flux * surface_grains_per_area / grain_time * sphere_volume(d) * d / 2;
+    return q / std::sqrt(reduced_gravity(s, g) * d * d * d);
+  }
+
+  double d, s, g, nu, galileo, grain_time;
+};
+
+void store_scene(Database& database, const CaseIdentity& id, const Scene& scene, const State& state) {
+  const Scales scales(scene);
+  const BedScene& bed = scene.bed;
+  insert(database, "scenes",
+         {id.id, id.label, id.set, id.set_label, whole(id.seed), scales.d, bed.grains.spread, bed.grains.density,
+          bed.fluid.density, scales.s, scales.nu, scales.g, real_or_null(scales.galileo), bed.grains.young_modulus,
+          whole(state.grains.size()), surface_grains(scene), bed.length.x, bed.length.y, bed.length.z, scene.grid.h.x,
+          scene.grid.h.y, scene.grid.h.z, std::string(name_of(scene.drag)), scene.drive.dwell, bed.dem_step,
+          scene.steps.fluid_interval});
+}
+
+void store_ramp(Database& database, const CaseIdentity& id, const Scene& scene, const BedRecord::Holds& h) {
+  const Scales scales(scene);
+  const double per_area = surface_grains(scene) / (scene.bed.length.x * scene.bed.length.y);
+  const double speed = std::sqrt(reduced_gravity(scales.s, scales.g) * scales.d);   // u* = sqrt(theta (s-1) g d)
+  for (std::size_t k = 0; k < h.hold.size(); ++k) {
+    const double root = std::sqrt(h.shields_measured[k]);
+    insert(database, "ramp_points",
+           {id.id, whole(h.hold[k]), h.start[k], h.end[k], h.shields_nominal[k], h.shields_measured[k],
+            real_or_null(root * speed), real_or_null(root * scales.galileo), h.lid_speed[k], h.gradient[k], h.flux[k],
+            h.flux_standard_error[k], real_or_null(scales.transport(h.flux[k], per_area)),
+            real_or_null(scales.transport(h.flux_standard_error[k], per_area)), h.moving_fraction[k], h.bed_height[k],
+            h.roughness[k], h.porosity[k], h.coordination[k], known(h.momentum_residual[k])});
+  }
+}
+
+/// The study's own criterion, and flux at 1e-3 (where rearrangements begin to count) and 1e-2 for every study alike.
+void store_thresholds(Database& database, const CaseIdentity& id, const Onset& onset, const BedRecord& record) {
+  if (onset.method == Onset::Method::none) return;
+  using Criterion = Onset::Criterion;
+  std::set<std::pair<Criterion, double>> wanted{{Criterion::flux, 1e-3}, {Criterion::flux, 1e-2}};
+  wanted.emplace(onset.criterion, onset.value);
+  for (const auto& [criterion, value] : wanted) {
+    const IncipientMotion found = incipient_motion(record, criterion, value);
+    const bool decides = criterion == onset.criterion && value == onset.value;
+    insert(database, "thresholds",
+           {id.id, std::string(criterion == Criterion::flux ? "flux" : "moving_fraction"), value, flag(decides),
+            std::string(name_of(found.status)), real_or_null(found.shields), real_or_null(found.lower), real_or_null(found.upper)});
+  }
+}
+
+void store_profiles(Database& database, const CaseIdentity& id, const BedRecord::Profiles& p) {
+  for (std::size_t n = 0; n < p.z.size(); ++n)
+    insert(database, "bed_statistics", {id.id, whole(p.hold[n]), p.z[n], p.porosity[n], p.fluid_velocity[n], p.grain_velocity[n]});
+}
+
+void store_samples(Database& database, const CaseIdentity& id, const BedRecord::Samples& s) {
+  for (std::size_t n = 0; n < s.time.size(); ++n)
+    insert(database, "samples",
+           {id.id, s.time[n], whole(s.hold[n]), s.shields_nominal[n], s.shields_measured[n], s.flux[n], s.moving_fraction[n],
+            s.bed_height[n], s.roughness[n], s.coordination[n], s.mean_grain_speed[n], s.deepest_overlap[n],
+            known(s.momentum_residual[n])});
+}
+
+void store_tracks(Database& database, const CaseIdentity& id, const BedRecord::Tracks& t) {
+  for (std::size_t n = 0; n < t.time.size(); ++n)
+    insert(database, "tracks",
+           {id.id, whole(t.grain[n]), t.time[n], t.x[n], t.y[n], t.z[n], t.vx[n], t.vy[n], t.vz[n]});
+}
+
+void store_models(Database& database, const CaseIdentity& id, const std::vector<ModelChoice>& models) {
+  for (std::size_t n = 0; n < models.size(); ++n)
+    insert(database, "models",
+           {id.id, whole(n), models[n].term, flag(models[n].on), flag(models[n].wanted), real_or_null(models[n].ratio),
+            models[n].reason});
+}
+
+}  // namespace
+
+void create_result_tables(Database& database) {
+  Database::Transaction transaction(database);
+  database.execute(result_tables);
+  transaction.commit();
+}
+
+void store_results(Database& database, const CaseIdentity& id, const Scene& scene, const State& state,
+                   const std::vector<ModelChoice>& models, const Provenance& made_by) {
+  Database::Transaction transaction(database);
+  for (const char* table : {"scenes", "ramp_points", "thresholds", "bed_statistics", "samples", "tracks", "models", "provenance"})
+    database.execute(fmt::format("DELETE FROM {} WHERE case_id = ?", table), {id.id});
+  store_scene(database, id, scene, state);
+  store_ramp(database, id, scene, state.record.holds);
+  store_thresholds(database, id, scene.onset, state.record);
+  store_profiles(database, id, state.record.profiles);
+  store_samples(database, id, state.record.samples);
+  store_tracks(database, id, state.record.tracks);
+  store_models(database, id, models);
+  insert(database, "provenance",
+         {id.id, made_by.version, std::int64_t{physics_version}, made_by.compiler, made_by.flags, made_by.libraries,
+          made_by.host, whole(id.seed), state_digest(state)});
+  update_threshold_curve(database);
+  transaction.commit();
+}
+
+}  // namespace bedload

@@ -1,0 +1,117 @@
+// A final state becomes rows: all of them, once, and the numbers derived from them.
+#include "studies/results.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solver/bed/incipient_motion.hpp"
+#include "studies/database_values.hpp"
+#include "studies/threshold_curve.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace bedload {
+namespace {
+
+Scene small_scene() {
+  Scene scene;
+  scene.bed.fluid = {1000, 1e-5};
+  scene.bed.grains.diameter = 0.5e-3;
+  scene.bed.grains.density = 2000;
+  scene.bed.gravity = {0, 0, -9.81};
+  scene.bed.length = {10e-3, 6e-3, 6.5e-3};
+  scene.bed.sides = {Side::periodic, Side::periodic, Side::wall};
+  scene.grid = {.cells = {10, 6, 26}, .h = {1e-3, 1e-3, 0.25e-3}, .sides = scene.bed.sides};
+  scene.drive = {FlowRamp::Kind::lid, FlowRamp::Quantity::shields, {0.1, 0.2, 0.3}, 1};
+  return scene;
+}
+
+/// Two still holds, then motion at theta 0.3 that the fourth confirms.
+State finished_state() {
+  State state;
+  state.grains.resize(3);
+  for (int k = 0; k < 4; ++k) {
+    auto& h = state.record.holds;
+    for (auto* column : {&h.start, &h.end, &h.shields_nominal, &h.lid_speed, &h.gradient, &h.flux_standard_error,
+                         &h.moving_fraction, &h.bed_height, &h.roughness, &h.porosity, &h.coordination})
+      column->push_back(k);
+    h.hold.push_back(k);
+    h.shields_measured.push_back(0.1 * (k + 1));
+    h.flux.push_back(k < 2 ? 1e-4 : 0.1);
+    h.momentum_residual.push_back(k == 0 ? -1 : 1e-9);
+  }
+  state.record.profiles = {{-1, -1}, {1e-4, 2e-4}, {0.4, 0.5}, {0, 0}, {0, 0}};
+  state.record.tracks = {{0.1}, {7}, {1}, {2}, {3}, {4}, {5}, {6}};
+  return state;
+}
+
+class ResultsTest : public ::testing::Test {
+ protected:
+  ResultsTest() { create_result_tables(database_); }
+  void store() {
+    store_results(database_, {"id1", "d0.5mm-s1", "set1", "d0.5mm", 1}, small_scene(), finished_state(),
+                  {{.term = "drag", .on = true, .wanted = true, .ratio = 1, .reason = "there is a bed"}}, {"0.1", "g++", "-O2", "hdf5", "host"});
+  }
+  double number(const std::string& sql) const { return number_in(database_.query(sql).rows.at(0).at(0)); }
+
+  TemporaryDirectory directory_;
+  Database database_{directory_.path() / "study.db", Database::Mode::write};
+};
+
+TEST_F(ResultsTest, AreTheSameRowsHoweverOftenTheyAreStored) {
+  store();
+  const auto before = database_.query("SELECT * FROM ramp_points").rows;
+  store();
+  EXPECT_EQ(database_.query("SELECT * FROM ramp_points").rows, before);
+  EXPECT_EQ(number("SELECT count(*) FROM scenes"), 1);
+  EXPECT_EQ(number("SELECT count(*) FROM bed_statistics"), 2);
+  EXPECT_EQ(number("SELECT count(*) FROM tracks WHERE grain = 7 AND vz_m_per_s = 6"), 1);
+  EXPECT_EQ(number("SELECT count(*) FROM models WHERE term = 'drag' AND is_on"), 1);
+}
+
+TEST_F(ResultsTest, TurnTheShieldsNumberIntoShearVelocityAndReynoldsNumber) {
+  store();
+  const double tau = 0.2 * 1000 * 9.81 * 0.5e-3, u = std::sqrt(tau / 1000);   // u* = sqrt(tau_b/rho_f)
+  EXPECT_NEAR(number("SELECT shear_velocity_m_per_s FROM ramp_points WHERE hold = 1"), u, 1e-12);
+  EXPECT_NEAR(number("SELECT friction_reynolds FROM ramp_points WHERE hold = 1"), u * 0.5e-3 / 1e-5, 1e-9);
+}
+
+TEST_F(ResultsTest, TurnEventsIntoTheVolumeFluxOfGrains) {
+  // Uniform motion: N grains per area A at speed v carry q = N V_p v/A and make N v/(d/2) events per second.
+  store();
+  const double d = 0.5e-3, per_area = 0.8 / (M_PI / 4 * d * d), event_flux = 0.1;
+  const double td_events_per_surface_grain = event_flux;
+  const double q_td = td_events_per_surface_grain * per_area * sphere_volume(d) * d / 2;   // q t_d
+  const double scale = std::sqrt(9.81 * d * d * d);
+  const double ratio = number("SELECT transport FROM ramp_points WHERE hold = 2") / (q_td / scale);
+  EXPECT_GT(1 / ratio, 0.99 * std::sqrt(d / 9.81));   // 1/ratio is t_d, at least the inertial time
+  EXPECT_NEAR(number("SELECT transport_error FROM ramp_points WHERE hold = 2") / number("SELECT transport FROM ramp_points WHERE hold = 2"),
+              2 / event_flux, 1e-9);
+}
+
+TEST_F(ResultsTest, HoldTheThresholdOfEveryCriterionAndMarkTheOneThatDecides) {
+  store();
+  EXPECT_EQ(number("SELECT count(*) FROM thresholds"), 2);
+  EXPECT_EQ(number("SELECT count(*) FROM thresholds WHERE decides AND value = 0.01 AND status = 'bracketed'"), 1);
+  EXPECT_EQ(number("SELECT shields_upper FROM thresholds WHERE decides"), 0.1 * 3);
+  EXPECT_EQ(threshold_curve(database_).size(), 1u);
+}
+
+TEST_F(ResultsTest, LeaveAMomentumResidualThatIsNotKnownEmpty) {
+  store();
+  EXPECT_EQ(number("SELECT count(*) FROM ramp_points WHERE momentum_residual IS NULL"), 1);
+}
+
+TEST_F(ResultsTest, NameTheFinalStateByItsDigest) {
+  store();
+  const auto rows = database_.query("SELECT state_digest FROM provenance").rows;
+  EXPECT_EQ(text_in(rows.at(0).at(0)), state_digest(finished_state()));
+}
+
+TEST_F(ResultsTest, OfferTheTransportCurveAsAView) {
+  store();
+  EXPECT_EQ(number("SELECT count(*) FROM transport_curve WHERE label = 'd0.5mm-s1' AND event_flux > 0.01"), 2);
+}
+
+}  // namespace
+}  // namespace bedload
