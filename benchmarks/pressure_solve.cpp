@@ -31,7 +31,8 @@ FaceFields rough_bed(const StaggeredGrid& g, double contrast) {
 /// Arguments: cells along x and y, cells along z, contrast, flatness h_x/h_z.
 void pressure_solve(benchmark::State& state) {
   const int nx = int(state.range(0)), nz = int(state.range(1));
-  const StaggeredGrid g{{nx, nx, nz}, {1, 1, 1.0 / double(state.range(3))}, {Side::periodic, Side::periodic, Side::wall}, Top::lid};
+  const StaggeredGrid g{
+      {nx, nx, nz}, {1, 1, 1.0 / double(state.range(3))}, {Side::periodic, Side::periodic, Side::wall}, Top::lid};
   const FaceFields c = rough_bed(g, double(state.range(2)));
   Field<Centre> rhs(g), p(g);
   std::mt19937 random(11);
@@ -57,5 +58,5 @@ BENCHMARK(pressure_solve)
     ->Args({64, 80, 100, 4})
     ->Unit(benchmark::kMillisecond);
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

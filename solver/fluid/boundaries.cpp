@@ -44,7 +44,7 @@ void fill_normal_at_walls(const StaggeredGrid& g, double* field, int c) noexcept
   fill_layer(g, field, c, {-2, 2, -1, 0});
 }
 
-}  // namespace
+}   // namespace
 
 void fill_velocity_ghosts(const StaggeredGrid& g, FaceFields& velocity, double lid_speed) {
   for (int component = 0; component < 3; ++component)
@@ -71,4 +71,4 @@ void fill_face_ghosts(const StaggeredGrid& g, FaceFields& field) {
       if (g.periodic(c)) fill_periodic(g, field.component(component), c);
 }
 
-}  // namespace bedload
+}   // namespace bedload

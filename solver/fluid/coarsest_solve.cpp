@@ -31,4 +31,4 @@ void CoarsestSolve::solve(double* x) const noexcept {
   }
 }
 
-}  // namespace bedload
+}   // namespace bedload

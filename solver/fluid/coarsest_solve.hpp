@@ -19,4 +19,4 @@ class CoarsestSolve {
   std::vector<double> lower_;   // L with its diagonal inverted, row by row
 };
 
-}  // namespace bedload
+}   // namespace bedload

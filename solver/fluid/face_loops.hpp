@@ -1,18 +1,16 @@
 // Loops over the unknown faces, in plane order, and sums whose order does not depend on how the box is divided.
 #pragma once
 
-#include "solver/fluid/staggered_grid.hpp"
+#include "solver/fluid/rows.hpp"
 
 namespace bedload {
 
 /// Calls visit(padded index) for every unknown face normal to direction c: x planes outermost, z innermost.
 template <class Visit>
 inline void for_each_unknown_face(const StaggeredGrid& g, int c, Visit&& visit) noexcept {
-  for (int i = c == 0 ? g.first_face(0) : 0; i < g.cells[0]; ++i)
-    for (int j = c == 1 ? g.first_face(1) : 0; j < g.cells[1]; ++j) {
-      const std::size_t row = g.index(i, j, 0);
-      for (int k = c == 2 ? g.first_face(2) : 0; k < g.cells[2]; ++k) visit(row + k);
-    }
+  for_each_face_row(g, c, [&](std::size_t row, int length) {
+    for (std::size_t n = row; n < row + length; ++n) visit(n);
+  });
 }
 
 /// Sum of value(padded index) over the unknown faces normal to c: one partial sum per x-plane, added in plane order.

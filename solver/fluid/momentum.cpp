@@ -30,8 +30,8 @@ void for_each_bundle(const StaggeredGrid& g, int c, Body&& body) {
 
 /// What the averaged flux lacks on the control volume of each face of a bundle: S = (eps' - eps)/dt + half the sum of the two
 /// cells' divergence (cells outside a wall count zero). `mean` receives the mean of S over each line.
-void line_sources(Bundle b, int faces, bool periodic, const double* divergence, const double* before, const double* after,
-                  double dt, double* source, double* mean) noexcept {
+void line_sources(Bundle b, int faces, bool periodic, const double* divergence, const double* before,
+                  const double* after, double dt, double* source, double* mean) noexcept {
   std::fill_n(mean, b.lanes, 0.0);
   for (int i = 0; i < faces; ++i) {
     const std::size_t at = b.first + i * b.step;
@@ -47,7 +47,8 @@ void line_sources(Bundle b, int faces, bool periodic, const double* divergence, 
 
 /// Turns the sources into the correction D at the cell centre after each face: D_right = D_left - h (S - mean S).
 /// Between walls D is zero outside; in a periodic line its mean is zero.
-void integrate_sources(Bundle b, int cells, bool periodic, double h, double* correction, double* mean, double* running) noexcept {
+void integrate_sources(Bundle b, int cells, bool periodic, double h, double* correction, double* mean,
+                       double* running) noexcept {
   std::fill_n(running, b.lanes, 0.0);
   for (int i = 0; i < cells; ++i)
     for (int l = 0; l < b.lanes; ++l) {
@@ -64,7 +65,8 @@ void integrate_sources(Bundle b, int cells, bool periodic, double h, double* cor
 }
 
 /// The correction of component c's own flux, at cell centres (centre i stands at the index of face i).
-void close_flux(const StaggeredGrid& g, int c, const double* before, const double* after, double dt, TransportScratch& scratch) {
+void close_flux(const StaggeredGrid& g, int c, const double* before, const double* after, double dt,
+                TransportScratch& scratch) {
   const bool periodic = g.periodic(c);
   const int cells = g.cells[c], faces = periodic ? cells : cells + 1;
   double* correction = scratch.face_source.component(c);
@@ -114,8 +116,8 @@ void subtract_difference(const double* __restrict low, const double* __restrict 
 }
 
 /// Takes from `momentum` of component c what leaves through the sides along t in dt.
-void carry_along(const StaggeredGrid& g, int c, int t, const double* flux, const double* correction, const double* velocity,
-                 double dt, double* momentum, std::vector<double>& rows) noexcept {
+void carry_along(const StaggeredGrid& g, int c, int t, const double* flux, const double* correction,
+                 const double* velocity, double dt, double* momentum, std::vector<double>& rows) noexcept {
   double* low = rows.data();
   double* high = low + rows.size() / 2;
   const double factor = dt / g.h[t];
@@ -146,10 +148,10 @@ void prepare(const StaggeredGrid& g, TransportScratch& scratch) {
   scratch.rows.assign(2 * (g.cells[2] + 2 * StaggeredGrid::ghosts), 0.0);
 }
 
-}  // namespace
+}   // namespace
 
-void transport(const StaggeredGrid& g, const FaceFields& flux, const FaceFields& void_before, const FaceFields& void_after,
-               double dt, FaceFields& velocity, TransportScratch& scratch) {
+void transport(const StaggeredGrid& g, const FaceFields& flux, const FaceFields& void_before,
+               const FaceFields& void_after, double dt, FaceFields& velocity, TransportScratch& scratch) {
   prepare(g, scratch);
   divergence(g, flux, scratch.divergence);
   fill_centre_ghosts(g, scratch.divergence);
@@ -170,4 +172,4 @@ void transport(const StaggeredGrid& g, const FaceFields& flux, const FaceFields&
   }
 }
 
-}  // namespace bedload
+}   // namespace bedload

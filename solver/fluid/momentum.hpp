@@ -18,7 +18,7 @@ struct TransportScratch {
 /// flow stays uniform and momentum is conserved (numerics: "transport with exact momentum"); u_face by van Leer's TVD limiter.
 /// `flux` [m/s] has filled ghosts and is zero on walls; the void fractions are read on faces 0..n, without ghosts.
 /// `velocity` has both ghost layers filled on entry and none on return. First order in time, TVD for CFL <= 0.5.
-void transport(const StaggeredGrid&, const FaceFields& flux, const FaceFields& void_before, const FaceFields& void_after,
-               double dt, FaceFields& velocity, TransportScratch&);
+void transport(const StaggeredGrid&, const FaceFields& flux, const FaceFields& void_before,
+               const FaceFields& void_after, double dt, FaceFields& velocity, TransportScratch&);
 
-}  // namespace bedload
+}   // namespace bedload

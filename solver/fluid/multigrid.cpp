@@ -25,7 +25,7 @@ Ratio coarsening(const std::array<int, 3>& cells, const Vec3& h) {
   return ratio;
 }
 
-}  // namespace
+}   // namespace
 
 struct Multigrid::Hierarchy {
   explicit Hierarchy(const StaggeredGrid& g) : grid(g) {
@@ -102,6 +102,8 @@ void Multigrid::set_right_hand_side(int i, int j, const double* row, double scal
 
 void Multigrid::cycle() noexcept { hierarchy_->cycle(0); }
 
-void Multigrid::get_solution(int i, int j, double* row) const noexcept { hierarchy_->levels[0].get_solution(i, j, row); }
+void Multigrid::get_solution(int i, int j, double* row) const noexcept {
+  hierarchy_->levels[0].get_solution(i, j, row);
+}
 
-}  // namespace bedload
+}   // namespace bedload

@@ -31,4 +31,4 @@ class Multigrid {
   std::unique_ptr<Hierarchy> hierarchy_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

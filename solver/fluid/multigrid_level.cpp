@@ -11,7 +11,8 @@ namespace {
 constexpr int padded(int cells_of_a_colour) { return (cells_of_a_colour + 3) / 4 * 4; }
 
 /// Splits a row into its even and odd entries.
-void split(const double* __restrict row, double scale, int cells, float* __restrict even, float* __restrict odd) noexcept {
+void split(const double* __restrict row, double scale, int cells, float* __restrict even,
+           float* __restrict odd) noexcept {
   const int pairs = cells / 2;
   for (int m = 0; m < pairs; ++m) {
     even[m] = static_cast<float>(row[2 * m] * scale);
@@ -49,16 +50,18 @@ void relax_row(Stencil s, const float* __restrict b, const float* __restrict inv
                float* __restrict out) noexcept {
 #pragma GCC ivdep
   for (int m = 0; m < count; ++m)
-    out[m] = inverse_diagonal[m] * (((s.wx[m] * s.x[m] + s.wx_up[m] * s.x_up[m]) + (s.wy[m] * s.y[m] + s.wy_up[m] * s.y_up[m])) +
-                                    ((s.wz[m] * s.z[m] + s.wz_up[m] * s.z_up[m]) + b[m]));
+    out[m] = inverse_diagonal[m] *
+             (((s.wx[m] * s.x[m] + s.wx_up[m] * s.x_up[m]) + (s.wy[m] * s.y[m] + s.wy_up[m] * s.y_up[m])) +
+              ((s.wz[m] * s.z[m] + s.wz_up[m] * s.z_up[m]) + b[m]));
 }
 
 inline float residual(const Stencil& s, float b, float x, int m) noexcept {
-  return ((s.wx[m] * (s.x[m] - x) + s.wx_up[m] * (s.x_up[m] - x)) + (s.wy[m] * (s.y[m] - x) + s.wy_up[m] * (s.y_up[m] - x))) +
+  return ((s.wx[m] * (s.x[m] - x) + s.wx_up[m] * (s.x_up[m] - x)) +
+          (s.wy[m] * (s.y[m] - x) + s.wy_up[m] * (s.y_up[m] - x))) +
          ((s.wz[m] * (s.z[m] - x) + s.wz_up[m] * (s.z_up[m] - x)) + b);
 }
 
-}  // namespace
+}   // namespace
 
 MultigridLevel::MultigridLevel(std::array<int, 3> cells, std::array<bool, 3> periodic) : cells_(cells), seam_(false) {
   for (int c = 0; c < 3; ++c) {
@@ -185,8 +188,8 @@ void MultigridLevel::relax(int plane, Colour colour) noexcept {
   for (int j = 0; j < cells_[1]; ++j) {
     const ColouredRow r = coloured_row(plane, j, colour);
     const std::size_t n = r.own;
-    const Stencil s{wx + n, wx + n + dx, wy + n, wy + n + dy, wz + n, wz + r.above,
-                    x + n - dx, x + n + dx, x + n - dy, x + n + dy, x + r.below, x + r.above};
+    const Stencil s{wx + n,     wx + n + dx, wy + n,     wy + n + dy, wz + n,      wz + r.above,
+                    x + n - dx, x + n + dx,  x + n - dy, x + n + dy,  x + r.below, x + r.above};
     relax_row(s, &right_[n], &inverse_diagonal_[n], r.count, x + n);
     fill_ghost_cells(plane, j);
   }
@@ -208,15 +211,19 @@ void MultigridLevel::begin_with_red(int plane) noexcept {
 void MultigridLevel::smooth_from_zero() noexcept {
   if (seam_) std::fill(x_.begin(), x_.end(), 0.0f);   // across a seam black cells read black ones
   const auto refresh = [&] { fill_ghost_planes(); };
-  wavefront(cells_[0], refresh, [&](int i) { begin_with_red(i); }, [&](int i) { relax(i, black); });
-  wavefront(cells_[0], refresh, [&](int i) { relax(i, red); }, [&](int i) { relax(i, black); });
+  wavefront(
+      cells_[0], refresh, [&](int i) { begin_with_red(i); }, [&](int i) { relax(i, black); });
+  wavefront(
+      cells_[0], refresh, [&](int i) { relax(i, red); }, [&](int i) { relax(i, black); });
 }
 
 void MultigridLevel::correct_and_smooth(const MultigridLevel& coarse, std::array<int, 3> ratio) noexcept {
   const auto refresh = [&] { fill_ghost_planes(); };
-  wavefront(cells_[0], refresh, [&](int i) { add_correction(i, coarse, ratio); }, [&](int i) { relax(i, black); },
-            [&](int i) { relax(i, red); });
-  wavefront(cells_[0], refresh, [&](int i) { relax(i, black); }, [&](int i) { relax(i, red); });
+  wavefront(
+      cells_[0], refresh, [&](int i) { add_correction(i, coarse, ratio); }, [&](int i) { relax(i, black); },
+      [&](int i) { relax(i, red); });
+  wavefront(
+      cells_[0], refresh, [&](int i) { relax(i, black); }, [&](int i) { relax(i, red); });
 }
 
 // ---- transfers -------------------------------------------------------------------------------------------------------------
@@ -226,8 +233,8 @@ void MultigridLevel::add_residual(int i, int j, Colour colour, int ratio, float*
   const float *wx = coupling_[0].data(), *wy = coupling_[1].data(), *wz = coupling_[2].data(), *x = x_.data();
   const ColouredRow r = coloured_row(i, j, colour);
   const std::size_t n = r.own;
-  const Stencil s{wx + n, wx + n + dx, wy + n, wy + n + dy, wz + n, wz + r.above,
-                  x + n - dx, x + n + dx, x + n - dy, x + n + dy, x + r.below, x + r.above};
+  const Stencil s{wx + n,     wx + n + dx, wy + n,     wy + n + dy, wz + n,      wz + r.above,
+                  x + n - dx, x + n + dx,  x + n - dy, x + n + dy,  x + r.below, x + r.above};
   const float *b = &right_[n], *here = x + n;
   const int count = (cells_[2] - r.parity + 1) / 2;
   if (ratio == 2) {
@@ -248,7 +255,8 @@ void MultigridLevel::restrict_residual(MultigridLevel& coarse, std::array<int, 3
           add_residual(i, j, red, ratio[2], coarse_row_.data());
           if (seam_) add_residual(i, j, black, ratio[2], coarse_row_.data());
         }
-      split(coarse_row_.data(), coarse.cells_[2], &coarse.right_[coarse.at(I, J, 0)], &coarse.right_[coarse.at(I, J, 1)]);
+      split(coarse_row_.data(), coarse.cells_[2], &coarse.right_[coarse.at(I, J, 0)],
+            &coarse.right_[coarse.at(I, J, 1)]);
     }
 }
 
@@ -275,4 +283,4 @@ void MultigridLevel::add_correction(int plane, const MultigridLevel& coarse, std
   fill_ghost_rows(plane);
 }
 
-}  // namespace bedload
+}   // namespace bedload

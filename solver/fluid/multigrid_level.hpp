@@ -65,4 +65,4 @@ class MultigridLevel {
   std::vector<float> coarse_row_;                     // one row of the next coarser level in natural order
 };
 
-}  // namespace bedload
+}   // namespace bedload

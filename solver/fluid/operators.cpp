@@ -1,23 +1,9 @@
 // Central differences of second order, row by row along z.
 #include "solver/fluid/operators.hpp"
 
-#include "solver/fluid/rows.hpp"
+#include "solver/fluid/face_loops.hpp"
 
 namespace bedload {
-namespace {
-
-/// Zeroes the faces 0 and n that lie on the walls normal to c.
-void clear_wall_faces(const StaggeredGrid& g, int c, double* field) noexcept {
-  if (g.periodic(c)) return;
-  const int a = c == 0 ? 1 : 0, b = c == 2 ? 1 : 2;
-  for (int m = 0; m < g.cells[a]; ++m)
-    for (int n = 0; n < g.cells[b]; ++n) {
-      double* low = field + g.index(0, 0, 0) + m * g.stride(a) + n * g.stride(b);
-      low[0] = low[g.cells[c] * g.stride(c)] = 0;
-    }
-}
-
-}  // namespace
 
 void gradient(const StaggeredGrid& g, const Field<Centre>& q, FaceFields& out) {
   for (int c = 0; c < 3; ++c) {
@@ -28,8 +14,8 @@ void gradient(const StaggeredGrid& g, const Field<Centre>& q, FaceFields& out) {
       double* __restrict slope = out.component(c) + row;
       for (int k = 0; k < length; ++k) slope[k] = (value[k] - value[k - s]) * per_h;
     });
-    clear_wall_faces(g, c, out.component(c));
   }
+  clear_walls(g, out);
 }
 
 void divergence(const StaggeredGrid& g, const FaceFields& flux, Field<Centre>& out) {
@@ -56,8 +42,8 @@ void laplacian(const StaggeredGrid& g, const FaceFields& velocity, FaceFields& o
         lap[k] = ((u[k + sx] - u[k]) - (u[k] - u[k - sx])) * ax + ((u[k + sy] - u[k]) - (u[k] - u[k - sy])) * ay +
                  ((u[k + 1] - u[k]) - (u[k] - u[k - 1])) * az;
     });
-    clear_wall_faces(g, c, out.component(c));
   }
+  clear_walls(g, out);
 }
 
 WallShear wall_shear(const StaggeredGrid& g, const FaceFields& velocity, double viscosity) {
@@ -80,4 +66,4 @@ WallShear wall_shear(const StaggeredGrid& g, const FaceFields& velocity, double 
   return shear;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -28,7 +28,8 @@ void set_couplings(const StaggeredGrid& g, const FaceFields& coefficient, FaceFi
 }
 
 /// A p = -div(c grad p) on one row of cells; p has its ghosts filled wherever w is not zero.
-void minus_divergence(const StaggeredGrid& g, const FaceFields& w, const double* field, std::size_t row, double* __restrict out) noexcept {
+void minus_divergence(const StaggeredGrid& g, const FaceFields& w, const double* field, std::size_t row,
+                      double* __restrict out) noexcept {
   const std::ptrdiff_t sx = g.stride(0), sy = g.stride(1);
   const double *wx = w.x.data() + row, *wy = w.y.data() + row, *wz = w.z.data() + row, *p = field + row;
   for (int k = 0; k < g.cells[2]; ++k)
@@ -43,12 +44,19 @@ double in_plane_order(const std::vector<double>& partial) noexcept {
   return total;
 }
 
-}  // namespace
+}   // namespace
 
 /// Scratch of the solver. Each pass below goes once through memory and does all that its data allow.
 struct PressureSolver::Levels {
   explicit Levels(const StaggeredGrid& g)
-      : grid(g), multigrid(g), couplings(g), residual(g), direction(g), image(g), partial(g.cells[0]), row_of_z(g.cells[2]) {}
+      : grid(g),
+        multigrid(g),
+        couplings(g),
+        residual(g),
+        direction(g),
+        image(g),
+        partial(g.cells[0]),
+        row_of_z(g.cells[2]) {}
 
   /// r = -(rhs - mean) - A p; returns |rhs - mean| and |r|.
   std::pair<double, double> begin(const Field<Centre>& rhs, Field<Centre>& p) {
@@ -67,7 +75,8 @@ struct PressureSolver::Levels {
   /// r.z with z the preconditioned residual.
   double precondition(double scale) noexcept {
     for (int i = 0; i < grid.cells[0]; ++i)
-      for (int j = 0; j < grid.cells[1]; ++j) multigrid.set_right_hand_side(i, j, &residual[grid.index(i, j, 0)], scale);
+      for (int j = 0; j < grid.cells[1]; ++j)
+        multigrid.set_right_hand_side(i, j, &residual[grid.index(i, j, 0)], scale);
     multigrid.cycle();
     for (int i = 0; i < grid.cells[0]; ++i) {
       LaneSum sum;
@@ -83,25 +92,26 @@ struct PressureSolver::Levels {
 
   /// d = z + beta d, then A d; returns d.Ad.
   double advance_direction(double beta) noexcept {
-    wavefront(grid.cells[0], [&] { wrap_planes(direction); },
-              [&](int i) {
-                for (int j = 0; j < grid.cells[1]; ++j) {
-                  double* __restrict d = &direction[grid.index(i, j, 0)];
-                  multigrid.get_solution(i, j, row_of_z.data());
-                  for (int k = 0; k < grid.cells[2]; ++k) d[k] = row_of_z[k] + beta * d[k];
-                }
-                wrap_rows(direction, i);
-              },
-              [&](int i) {
-                LaneSum sum;
-                for (int j = 0; j < grid.cells[1]; ++j) {
-                  const std::size_t row = grid.index(i, j, 0);
-                  const double *d = &direction[row], *ad = &image[row];
-                  minus_divergence(grid, couplings, direction.data(), row, &image[row]);
-                  sum.add_row(grid.cells[2], [&](int k) { return d[k] * ad[k]; });
-                }
-                partial[i] = sum.value();
-              });
+    wavefront(
+        grid.cells[0], [&] { wrap_planes(direction); },
+        [&](int i) {
+          for (int j = 0; j < grid.cells[1]; ++j) {
+            double* __restrict d = &direction[grid.index(i, j, 0)];
+            multigrid.get_solution(i, j, row_of_z.data());
+            for (int k = 0; k < grid.cells[2]; ++k) d[k] = row_of_z[k] + beta * d[k];
+          }
+          wrap_rows(direction, i);
+        },
+        [&](int i) {
+          LaneSum sum;
+          for (int j = 0; j < grid.cells[1]; ++j) {
+            const std::size_t row = grid.index(i, j, 0);
+            const double *d = &direction[row], *ad = &image[row];
+            minus_divergence(grid, couplings, direction.data(), row, &image[row]);
+            sum.add_row(grid.cells[2], [&](int k) { return d[k] * ad[k]; });
+          }
+          partial[i] = sum.value();
+        });
     return in_plane_order(partial);
   }
 
@@ -160,8 +170,8 @@ struct PressureSolver::Levels {
 PressureSolver::PressureSolver(const StaggeredGrid& g) : levels_(std::make_unique<Levels>(g)) {}
 PressureSolver::~PressureSolver() = default;
 
-PressureSolve PressureSolver::solve(const FaceFields& coefficient, const Field<Centre>& rhs, Field<Centre>& p, double relative,
-                                    double absolute) {
+PressureSolve PressureSolver::solve(const FaceFields& coefficient, const Field<Centre>& rhs, Field<Centre>& p,
+                                    double relative, double absolute) {
   Levels& s = *levels_;
   set_couplings(s.grid, coefficient, s.couplings);
   auto [rhs_norm, norm] = s.begin(rhs, p);
@@ -182,4 +192,4 @@ PressureSolve PressureSolver::solve(const FaceFields& coefficient, const Field<C
   return report;
 }
 
-}  // namespace bedload
+}   // namespace bedload

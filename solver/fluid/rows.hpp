@@ -53,4 +53,4 @@ double sum_over_cells(const StaggeredGrid& g, Term&& term) {
   return total;
 }
 
-}  // namespace bedload
+}   // namespace bedload

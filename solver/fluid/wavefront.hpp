@@ -12,7 +12,7 @@ void finish(int planes, int lag, Stage& stage) {
   for (int i = 0; i < std::min(lag, planes); ++i) stage(i);
 }
 
-}  // namespace wavefront_detail
+}   // namespace wavefront_detail
 
 /// Runs each stage on every plane, a later stage on a plane as soon as the stage before it has passed the planes on both
 /// sides, so that planes are still in cache; the result is that of one full sweep after the other. `refresh` renews the ghost
@@ -43,4 +43,4 @@ void wavefront(int planes, Refresh&& refresh, First&& first, Second&& second, Th
   refresh();
 }
 
-}  // namespace bedload
+}   // namespace bedload

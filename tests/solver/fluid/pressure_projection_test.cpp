@@ -1,0 +1,185 @@
+#include "solver/fluid/pressure_projection.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fmt/core.h>
+
+#include <tuple>
+
+#include "fields.hpp"
+#include "solver/fluid/boundaries.hpp"
+#include "solver/fluid/operators.hpp"
+#include "tests/support/dense_pressure.hpp"
+
+namespace bedload {
+namespace {
+
+using namespace test;
+
+/// |div(c grad p) - rhs| per |rhs|, with the mean of rhs removed, by the operators of the fluid.
+double true_residual(const StaggeredGrid& g, const FaceFields& c, const Field<Centre>& rhs, const Field<Centre>& p) {
+  FaceFields flux(g);
+  Field<Centre> div(g);
+  gradient(g, p, flux);
+  for (int m = 0; m < 3; ++m)
+    for_each_unknown_face(g, m, [&](std::size_t n) { flux.component(m)[n] *= c.component(m)[n]; });
+  fill_face_ghosts(g, flux);
+  divergence(g, flux, div);
+  const double mean = sum_over_cells(g, [&](std::size_t n) { return rhs[n]; }) / g.cell_count();
+  const double left = sum_over_cells(g, [&](std::size_t n) { return std::pow(div[n] - rhs[n] + mean, 2); });
+  return std::sqrt(left / sum_over_cells(g, [&](std::size_t n) { return std::pow(rhs[n] - mean, 2); }));
+}
+
+TEST(PressureSolver, AgreesWithADenseSolveInBoxesOfEveryKind) {
+  const StaggeredGrid boxes[] = {
+      {{4, 4, 4}, {1, 1, 1}, {periodic, periodic, periodic}},   {{5, 3, 7}, {1, 1, 1}, {periodic, periodic, wall}},
+      {{7, 5, 9}, {1, 2, 0.5}, {periodic, periodic, periodic}}, {{6, 7, 5}, {0.1, 0.2, 0.3}, {wall, wall, wall}},
+      {{9, 1, 13}, {1, 1, 1}, {wall, periodic, wall}},          {{1, 1, 11}, {1, 1, 1}, {periodic, periodic, wall}},
+      {{2, 3, 40}, {4, 4, 1}, {periodic, wall, periodic}},      {{1, 1, 1}, {1, 1, 1}, {periodic, periodic, wall}},
+  };
+  for (const StaggeredGrid& g : boxes) {
+    const FaceFields c = random_faces(g, 1, 0.05, 1);
+    const Field<Centre> rhs = random_centres(g, 2, -1, 1);
+    Field<Centre> p(g);
+    PressureSolver solver(g);
+    const PressureSolve solve = solver.solve(c, rhs, p, 1e-12, 0);
+    const std::string name = fmt::format("{} x {} x {}", g.cells[0], g.cells[1], g.cells[2]);
+    EXPECT_TRUE(solve.converged) << name;
+    const Eigen::VectorXd exact = dense_pressure(g, c, rhs);
+    const double tolerance = 1e-9 * (exact.cwiseAbs().maxCoeff() + 1);
+    Eigen::Index m = 0;
+    for_each_cell_row(g, [&](std::size_t row, int length) {
+      for (int k = 0; k < length; ++k, ++m) EXPECT_NEAR(p[row + k], exact(m), tolerance) << name;
+    });
+  }
+}
+
+TEST(PressureSolver, ReportsTheResidualThatIsThereAndMeetsItsTolerance) {
+  const StaggeredGrid g{{12, 9, 15}, {1, 1, 0.5}, {periodic, periodic, wall}};
+  const FaceFields c = random_faces(g, 1, 0.1, 1);
+  const Field<Centre> rhs = random_centres(g, 2, 0, 1);
+  for (double tolerance : {1e-2, 1e-5, 1e-11}) {
+    Field<Centre> p(g);
+    const PressureSolve solve = PressureSolver(g).solve(c, rhs, p, tolerance, 0);
+    EXPECT_LE(solve.residual, tolerance);
+    EXPECT_NEAR(true_residual(g, c, rhs, p), solve.residual, 1e-3 * solve.residual + 1e-14);
+    EXPECT_NEAR(sum_over_cells(g, [&](std::size_t n) { return p[n]; }) / g.cell_count(), 0, 1e-14);
+  }
+}
+
+TEST(PressureSolver, StopsAtTheAbsoluteToleranceToo) {
+  const StaggeredGrid g{{12, 9, 15}, {1, 1, 1}, {periodic, periodic, wall}};
+  const FaceFields c(g, 1);
+  const Field<Centre> rhs = random_centres(g, 2, -1e-6, 1e-6);
+  Field<Centre> p(g);
+  PressureSolver solver(g);
+  EXPECT_EQ(solver.solve(c, rhs, p, 0, 1e-5).iterations, 0);
+  EXPECT_GT(solver.solve(c, rhs, p, 0, 1e-8).iterations, 0);
+}
+
+TEST(PressureSolver, LeavesFluidWithoutDivergenceExactlyAtRest) {
+  const StaggeredGrid g{{8, 8, 8}, {1, 1, 1}, {periodic, periodic, wall}};
+  Field<Centre> p(g);
+  const PressureSolve solve = PressureSolver(g).solve(random_faces(g, 1, 0.1, 1), Field<Centre>(g), p, 1e-8, 0);
+  EXPECT_TRUE(solve.converged);
+  EXPECT_EQ(solve.iterations, 0);
+  EXPECT_EQ(p, Field<Centre>(g));
+}
+
+TEST(PressureSolver, ReadsNoCoefficientOnWallsAndNoGhosts) {
+  const StaggeredGrid g{{6, 8, 10}, {1, 1, 1}, {periodic, wall, wall}};
+  FaceFields c(g, std::nan(""));
+  const FaceFields plain = random_faces(g, 1, 0.1, 1);
+  for (int m = 0; m < 3; ++m)
+    for_each_unknown_face(g, m, [&](std::size_t n) { c.component(m)[n] = plain.component(m)[n]; });
+  const Field<Centre> rhs = random_centres(g, 2, -1, 1);
+  Field<Centre> p(g), again(g);
+  PressureSolver(g).solve(c, rhs, p, 1e-8, 0);
+  PressureSolver(g).solve(plain, rhs, again, 1e-8, 0);
+  EXPECT_EQ(p, again);
+}
+
+TEST(PressureSolver, RemembersNothingOfEarlierSolvesNotEvenOfOnesThatFailed) {
+  const StaggeredGrid g{{13, 8, 18}, {1, 1, 0.5}, {periodic, periodic, wall}};
+  const FaceFields c = random_faces(g, 1, 0.01, 1);
+  const Field<Centre> rhs = random_centres(g, 2, -1, 1);
+  Field<Centre> fresh(g), used(g), other(g);
+  PressureSolver(g).solve(c, rhs, fresh, 1e-9, 0);
+  PressureSolver solver(g);
+  solver.solve(random_faces(g, 5, 0.1, 1), random_centres(g, 6, -1, 1), other, 1e-4, 0);
+  FaceFields broken = c;
+  for_each_unknown_face(g, 0, [&](std::size_t n) { broken.x[n] = std::nan(""); });
+  EXPECT_FALSE(solver.solve(broken, rhs, other, 1e-4, 0).converged);
+  solver.solve(c, rhs, used, 1e-9, 0);
+  EXPECT_EQ(fresh, used);
+}
+
+TEST(PressureSolver, NeedsNoIterationWhenTheFirstGuessIsTheSolution) {
+  const StaggeredGrid g{{10, 8, 12}, {1, 1, 1}, {periodic, periodic, periodic}};
+  const FaceFields c = random_faces(g, 1, 0.1, 1);
+  const Field<Centre> rhs = random_centres(g, 2, -1, 1);
+  Field<Centre> p(g);
+  PressureSolver solver(g);
+  solver.solve(c, rhs, p, 1e-9, 0);
+  EXPECT_EQ(solver.solve(c, rhs, p, 1e-8, 0).iterations, 0);
+}
+
+TEST(PressureSolver, WorksAtTheScaleOfMicronsAsAtTheScaleOfMetres) {
+  for (double h : {1e-6, 1.0, 1e3}) {
+    const StaggeredGrid g{{16, 16, 16}, {h, h, h}, {periodic, periodic, wall}};
+    for (double size : {1e-30, 1e30}) {
+      Field<Centre> p(g);
+      const FaceFields c = random_faces(g, 1, 0.1 * size, size);
+      const PressureSolve solve = PressureSolver(g).solve(c, random_centres(g, 2, -size, size), p, 1e-8, 0);
+      EXPECT_TRUE(solve.converged);
+      EXPECT_LE(solve.iterations, 17);
+    }
+  }
+}
+
+enum class Bed { sharp_plane, rough_surface, dunes, random_cells };
+
+/// 1 in clear fluid, 1/contrast inside the bed; faces take the mean of their cells, as a deposit with a hat does.
+FaceFields bed_coefficient(const StaggeredGrid& g, Bed bed, double contrast) {
+  std::mt19937 random(7);
+  const auto uniform = [&] { return random() / 4294967296.0; };
+  Field<Centre> clear(g);
+  for (int i = 0; i < g.cells[0]; ++i)
+    for (int j = 0; j < g.cells[1]; ++j) {
+      double top = g.cells[2] / 2;
+      if (bed == Bed::rough_surface) top += 6 * uniform() - 3;
+      if (bed == Bed::dunes) top += 6 * std::sin(4 * M_PI * i / g.cells[0]) * std::cos(2 * M_PI * j / g.cells[1]);
+      for (int k = 0; k < g.cells[2]; ++k) {
+        const bool inside = bed == Bed::random_cells ? uniform() < 0.5 : k < top;
+        clear[g.index(i, j, k)] = inside ? 1 / contrast : 1;
+      }
+    }
+  fill_centre_ghosts(g, clear);
+  FaceFields c(g);
+  for (int m = 0; m < 3; ++m)
+    for_each_unknown_face(g, m, [&](std::size_t n) { c.component(m)[n] = 0.5 * (clear[n] + clear[n - g.stride(m)]); });
+  return c;
+}
+
+class PressureSolverOverABed : public testing::TestWithParam<std::tuple<Bed, double, double, std::array<int, 3>>> {};
+
+TEST_P(PressureSolverOverABed, NeedsAtMost17IterationsTo1em8) {
+  const auto [bed, contrast, flatness, cells] = GetParam();
+  const StaggeredGrid g{cells, {1, 1, 1 / flatness}, {periodic, periodic, wall}};
+  const FaceFields c = bed_coefficient(g, bed, contrast);
+  const Field<Centre> rhs = random_centres(g, 2, -1, 1);
+  Field<Centre> p(g);
+  const PressureSolve solve = PressureSolver(g).solve(c, rhs, p, 1e-8, 0);
+  EXPECT_LE(solve.iterations, 17);
+  EXPECT_TRUE(solve.converged);
+  EXPECT_NEAR(true_residual(g, c, rhs, p), solve.residual, 0.01 * solve.residual);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, PressureSolverOverABed,
+                         testing::Combine(testing::Values(Bed::sharp_plane, Bed::rough_surface, Bed::dunes,
+                                                          Bed::random_cells),
+                                          testing::Values(2.5, 1e2, 1e4), testing::Values(1.0, 4.0),
+                                          testing::Values(std::array{32, 32, 40}, std::array{21, 12, 27})));
+
+}   // namespace
+}   // namespace bedload
