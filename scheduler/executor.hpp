@@ -26,7 +26,8 @@ class Executor {
  public:
   virtual ~Executor() = default;
 
-  /// Starts a worker that outlives this process. Throws Error unavailable if it cannot be started.
+  /// Starts a worker that outlives this process. Throws Error unavailable if the program cannot be started,
+  /// io if its files cannot be written.
   virtual JobId start(const Job&) = 0;
   /// Waits until a job ends, a signal arrives, or `seconds` have passed; all jobs that have ended meanwhile.
   virtual std::vector<JobEnd> wait(double seconds) = 0;

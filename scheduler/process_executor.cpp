@@ -54,7 +54,8 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 
 /// What the child does between fork and exec: own session, default signals, nothing to read, its output to the log.
 struct Preparation {
-  explicit Preparation(const fs::path& log) {
+  explicit Preparation(const fs::path& log) : output(::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)) {
+    if (output < 0) throw Error(ErrorKind::io, fmt::format("cannot write {}: {}", log.string(), std::strerror(errno)));
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
     sigset_t signals;
@@ -64,16 +65,18 @@ struct Preparation {
     posix_spawnattr_setsigmask(&attributes, &signals);
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
   }
   ~Preparation() {
+    ::close(output);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
   }
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
 
+  int output;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_t actions;
 };

@@ -101,9 +101,18 @@ TEST_F(Processes, RunSideBySide) {
 }
 
 TEST_F(Processes, ThatCannotBeStartedAreAnError) {
-  ProcessExecutor executor({"/no/such/program"});
-  EXPECT_THROW(executor.start({directory_, 1}), Error);
-  EXPECT_TRUE(executor.wait(0).empty());
+  const auto kind_of_failure = [](const std::string& program, const fs::path& directory) {
+    ProcessExecutor executor({program});
+    try {
+      executor.start({directory, 1});
+    } catch (const Error& e) {
+      EXPECT_TRUE(executor.wait(0).empty());
+      return e.kind;
+    }
+    return ErrorKind::internal;
+  };
+  EXPECT_EQ(kind_of_failure("/no/such/program", directory_), ErrorKind::unavailable);
+  EXPECT_EQ(kind_of_failure("/bin/true", directory_ / "nowhere"), ErrorKind::io);
 }
 
 }  // namespace

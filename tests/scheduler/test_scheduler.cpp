@@ -104,10 +104,10 @@ TEST(Scheduler, ResumesWhatWasInterrupted) {
 TEST(Scheduler, GoesOnAsLongAsKilledWorkersMakeProgress) {
   FakeStudy study;
   study.add_case("a");
-  study.executor.scripts["a"] = std::deque<Act>(30, Act::killed(1));
+  study.executor.scripts["a"] = std::deque<Act>(12, Act::killed(1));
   study.executor.scripts["a"].push_back(Act::finish());
   EXPECT_EQ(study.run().exit_code, 0);
-  EXPECT_EQ(study.executor.started.size(), 31u);
+  EXPECT_EQ(study.executor.started.size(), 13u);
 }
 
 TEST(Scheduler, GivesUpACaseKilledTenTimesWithoutProgress) {
@@ -257,7 +257,7 @@ TEST(Scheduler, LeavesALongWorkerWithAHeartbeatAlone) {
   FakeStudy study;
   study.add_case("a");
   Act slow = Act::finish();
-  slow.lasts = 10 * study.options.stall_limit;
+  slow.lasts = 3 * study.options.stall_limit;
   study.executor.scripts["a"] = {slow};
   EXPECT_EQ(study.run().exit_code, 0);
   EXPECT_TRUE(study.executor.killed.empty());
