@@ -39,7 +39,11 @@ class BedPacking {
 /// (nearly) order in space. Deterministic in its input.
 void renumber_in_space(const BedScene&, Grains&, ContactHistory&);
 
-/// Young's modulus for stiffness = "auto" [Pa]: the rule of docs/decisions on stiffness.
-double automatic_young_modulus(const BedScene&, double bed_layers);
+/// Grains that rest on each other in a settled bed of scene.source.count grains, at least 1 [-].
+double bed_layers(const BedScene&);
+
+/// Young's modulus for stiffness = "auto" [Pa]: the rule of docs/decisions/stiffness.md. Reads fluid,
+/// gravity and the grains' diameter, density and Poisson's ratio.
+double automatic_young_modulus(const BedScene&, double layers);
 
 }  // namespace bedload

@@ -1,0 +1,110 @@
+// The sub-steps, and the two scales of time that choose their length.
+#include "solver/grains/grain_dynamics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "solver/grains/contact_forces.hpp"
+#include "solver/grains/grain_motion.hpp"
+
+namespace bedload {
+
+/// Scratch: nothing here outlives a call in meaning. The springs come from and return to the ContactHistory of the caller;
+/// the list is used again only if it still covers the grains that are handed in.
+struct GrainDynamics::Workspace {
+  explicit Workspace(const BedScene& scene)
+      : rough(scene.grains), smooth(rough.without_friction()), list(scene) {}
+
+  void take(const Grains&, std::span<const double> relaxation, double dt);
+  void give(Grains&, int substeps) const;
+  void prepare_list(ContactHistory&, double dt, bool list_holds_springs);
+  double deepest_overlap() const;
+
+  HertzMindlin rough, smooth;
+  NeighbourList list;
+  std::vector<Body> bodies;
+  std::vector<Load> loads;
+  std::vector<Vec3> sum_of_forces;
+  std::vector<double> damp;
+};
+
+void GrainDynamics::Workspace::take(const Grains& grains, std::span<const double> relaxation, double dt) {
+  const std::size_t n = grains.size();
+  bodies.resize(n), loads.resize(n), damp.resize(n);
+  sum_of_forces.assign(n, {});
+  for (std::size_t i = 0; i < n; ++i) {
+    const double mass = grains.density[i] * sphere_volume(grains.diameter[i]);
+    const bool fixed = grains.fixed[i] != 0;
+    bodies[i] = {grains.position[i], 0.5 * grains.diameter[i], grains.velocity[i], fixed ? 0 : 1 / mass,
+                 grains.spin[i], fixed ? 0 : 1 / sphere_inertia(mass, grains.diameter[i])};
+    damp[i] = relaxation.empty() ? 1 : 1 / (1 + dt * relaxation[i]);
+  }
+}
+
+void GrainDynamics::Workspace::give(Grains& grains, int substeps) const {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    grains.mean_contact_force[i] = sum_of_forces[i] / substeps;
+    if (grains.fixed[i]) continue;
+    grains.position[i] = bodies[i].position;
+    grains.velocity[i] = bodies[i].velocity;
+    grains.spin[i] = bodies[i].spin;
+  }
+}
+
+void GrainDynamics::Workspace::prepare_list(ContactHistory& history, double dt, bool list_holds_springs) {
+  if (list.covers(bodies)) {
+    if (!list_holds_springs) list.load(history);
+    return;
+  }
+  if (list_holds_springs) list.save(history);
+  list.rebuild(bodies, dt, history);
+}
+
+double GrainDynamics::Workspace::deepest_overlap() const {
+  double deepest = 0;
+  for (std::size_t k = 0; k < list.pairs.size(); ++k) {
+    const double smaller = std::min(bodies[list.pairs.ids.lower[k]].radius, bodies[list.pairs.ids.higher[k]].radius);
+    deepest = std::max(deepest, list.pairs.depth[k] / (2 * smaller));
+  }
+  for (const WallContact& c : list.wall_contacts) deepest = std::max(deepest, c.depth / (2 * bodies[c.grain].radius));
+  return deepest;
+}
+
+GrainDynamics::GrainDynamics(const BedScene& scene) : work_(std::make_unique<Workspace>(scene)) {}
+GrainDynamics::~GrainDynamics() = default;
+void GrainDynamics::forget() { work_->list.forget(); }
+
+GrainHealth GrainDynamics::advance(Grains& grains, ContactHistory& contacts, std::span<const Vec3> push,
+                                   std::span<const double> relaxation, double dt, int substeps, double lid_speed) {
+  Workspace& w = *work_;
+  GrainHealth health;
+  w.take(grains, relaxation, dt);
+  for (int s = 0; s < substeps; ++s) {
+    w.prepare_list(contacts, dt, s > 0);
+    std::ranges::fill(w.loads, Load{});
+    add_pair_forces(w.rough, w.list.box(), w.bodies, dt, w.list.pairs, w.loads);
+    health.force_on_walls += add_wall_forces(w.rough, w.smooth, w.list.walls(), w.bodies, dt, lid_speed, w.list.wall_contacts, w.loads);
+    for (std::size_t i = 0; i < w.loads.size(); ++i) w.sum_of_forces[i] += w.loads[i].force;
+    move_bodies(w.bodies, w.loads, push, w.damp, dt);
+  }
+  w.list.save(contacts);
+  w.give(grains, substeps);
+  health.force_on_walls = health.force_on_walls / substeps;
+  health.deepest_overlap = w.deepest_overlap();
+  health.contacts = contacts.size();
+  return health;
+}
+
+double rayleigh_time(double diameter, double density, double young_modulus, double poisson) {
+  const double shear_modulus = young_modulus / (2 * (1 + poisson));
+  return std::numbers::pi * diameter / 2 * std::sqrt(density / shear_modulus) / (0.1631 * poisson + 0.8766);
+}
+
+double contact_time(double diameter, double density, double young_modulus, double poisson, double speed) {
+  const double mass = density * sphere_volume(diameter) / 2;                        // m* of two equal grains
+  const double modulus = young_modulus / (2 * (1 - poisson * poisson));             // Y*
+  return 2.87 * std::pow(mass * mass / (diameter / 4 * modulus * modulus * speed), 0.2);
+}
+
+}  // namespace bedload

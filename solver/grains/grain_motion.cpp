@@ -1,0 +1,17 @@
+// v += dt (push + F/m), x += dt v: no memory but position and velocity themselves.
+#include "solver/grains/grain_motion.hpp"
+
+namespace bedload {
+
+void move_bodies(std::span<Body> bodies, std::span<const Load> loads, std::span<const Vec3> push,
+                 std::span<const double> damp, double dt) noexcept {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Body& b = bodies[i];
+    if (b.inverse_mass == 0) continue;
+    b.velocity = damp[i] * (b.velocity + dt * (push[i] + b.inverse_mass * loads[i].force));
+    b.spin += (dt * b.inverse_inertia) * loads[i].torque;
+    b.position += dt * b.velocity;
+  }
+}
+
+}  // namespace bedload

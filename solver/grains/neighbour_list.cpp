@@ -1,0 +1,125 @@
+// A half list with a skin per grain; the memory of the contacts is merged into it, both being sorted alike.
+#include "solver/grains/neighbour_list.hpp"
+
+#include <algorithm>
+
+namespace bedload {
+namespace {
+
+// Wide enough for some tens of steps of a moving grain, narrow for one at rest: most listed pairs touch.
+double skin_of(const Body& body, double dt) {
+  if (body.inverse_mass == 0) return 0;
+  const double diameter = 2 * body.radius;
+  return std::min(0.01 * diameter + 1.3 * 50 * dt * norm(body.velocity), 0.2 * diameter);
+}
+
+double reduced_mass(const Body& a, const Body& b) { return 1 / (a.inverse_mass + b.inverse_mass); }
+
+bool before(std::uint32_t lower_a, std::uint32_t higher_a, std::uint32_t lower_b, std::uint32_t higher_b) {
+  return lower_a != lower_b ? lower_a < lower_b : higher_a < higher_b;
+}
+
+}  // namespace
+
+void PairContacts::resize_to_ids() {
+  for (auto* array : {&root_radius, &mass, &depth, &spring_x, &spring_y, &spring_z}) array->resize(ids.size());
+}
+
+NeighbourList::NeighbourList(const BedScene& scene) : box_(scene), walls_(walls_of(scene)) {}
+
+bool NeighbourList::covers(std::span<const Body> bodies) const noexcept {
+  if (reference_.size() != bodies.size()) return false;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Body &now = bodies[i], &then = reference_[i];
+    const Vec3 moved = box_.shortest(now.position - then.position);
+    const bool inside = norm2(moved) <= skin_[i] * skin_[i];
+    if (!inside || now.radius != then.radius || now.inverse_mass != then.inverse_mass) return false;
+  }
+  return true;
+}
+
+void NeighbourList::rebuild(std::span<const Body> bodies, double dt, const ContactHistory& history) {
+  reference_.assign(bodies.begin(), bodies.end());
+  const std::size_t n = bodies.size();
+  skin_.resize(n), reach_.resize(n), position_.resize(n), fixed_.resize(n);
+  double largest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    skin_[i] = skin_of(bodies[i], dt);
+    reach_[i] = bodies[i].radius + skin_[i];
+    position_[i] = bodies[i].position;
+    fixed_[i] = bodies[i].inverse_mass == 0;
+    largest = std::max(largest, 2 * bodies[i].radius);
+  }
+  check_periodic_sides(box_, largest);
+  list_pairs(bodies);
+  list_walls(bodies);
+  load(history);
+}
+
+void NeighbourList::list_pairs(std::span<const Body> bodies) {
+  find_near_pairs(box_, position_, reach_, fixed_, pairs.ids);
+  pairs.resize_to_ids();
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const Body &a = bodies[pairs.ids.lower[k]], &b = bodies[pairs.ids.higher[k]];
+    pairs.root_radius[k] = std::sqrt(a.radius * b.radius / (a.radius + b.radius));
+    pairs.mass[k] = reduced_mass(a, b);
+  }
+}
+
+void NeighbourList::list_walls(std::span<const Body> bodies) {
+  wall_contacts.clear();
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    const Body& body = bodies[i];
+    if (fixed_[i]) continue;
+    for (std::uint32_t w = 0; w < walls_.size(); ++w) {
+      if (walls_[w].depth(body.position, reach_[i]) > 0)
+        wall_contacts.push_back({i, w, std::sqrt(body.radius), 1 / body.inverse_mass, 0, {}});
+    }
+  }
+}
+
+void NeighbourList::load(const ContactHistory& history) {
+  std::size_t pair = 0, touch = 0;
+  for (auto* array : {&pairs.depth, &pairs.spring_x, &pairs.spring_y, &pairs.spring_z}) std::ranges::fill(*array, 0.0);
+  for (auto& contact : wall_contacts) contact.depth = 0, contact.spring = {};
+  for (std::size_t h = 0; h < history.size(); ++h) {
+    const auto lower = history.lower[h], higher = history.higher[h];
+    if (higher >= static_cast<std::uint32_t>(Wall::x_low)) {
+      while (touch < wall_contacts.size() &&
+             before(wall_contacts[touch].grain, static_cast<std::uint32_t>(walls_[wall_contacts[touch].wall].name), lower, higher))
+        ++touch;
+      if (touch < wall_contacts.size() && wall_contacts[touch].grain == lower &&
+          static_cast<std::uint32_t>(walls_[wall_contacts[touch].wall].name) == higher)
+        wall_contacts[touch].spring = history.spring[h];
+    } else {
+      while (pair < pairs.size() && before(pairs.ids.lower[pair], pairs.ids.higher[pair], lower, higher)) ++pair;
+      if (pair < pairs.size() && pairs.ids.lower[pair] == lower && pairs.ids.higher[pair] == higher) {
+        pairs.spring_x[pair] = history.spring[h].x;
+        pairs.spring_y[pair] = history.spring[h].y;
+        pairs.spring_z[pair] = history.spring[h].z;
+      }
+    }
+  }
+}
+
+void NeighbourList::save(ContactHistory& history) const {
+  history.lower.clear(), history.higher.clear(), history.spring.clear();
+  const auto remember = [&](std::uint32_t lower, std::uint32_t higher, Vec3 spring) {
+    history.lower.push_back(lower), history.higher.push_back(higher), history.spring.push_back(spring);
+  };
+  std::size_t touch = 0;
+  const auto walls_of_grains_below = [&](std::uint32_t grain) {
+    for (; touch < wall_contacts.size() && wall_contacts[touch].grain < grain; ++touch) {
+      const WallContact& c = wall_contacts[touch];
+      if (c.depth > 0) remember(c.grain, static_cast<std::uint32_t>(walls_[c.wall].name), c.spring);
+    }
+  };
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (!(pairs.depth[k] > 0)) continue;
+    walls_of_grains_below(pairs.ids.lower[k]);
+    remember(pairs.ids.lower[k], pairs.ids.higher[k], {pairs.spring_x[k], pairs.spring_y[k], pairs.spring_z[k]});
+  }
+  walls_of_grains_below(UINT32_MAX);
+}
+
+}  // namespace bedload
