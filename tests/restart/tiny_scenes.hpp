@@ -1,0 +1,27 @@
+// Beds of a hundred grains under a short ramp: small enough to run many times, and everything a run does happens in them.
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "solver/scene.hpp"
+
+namespace bedload::test {
+
+struct TinyScene {
+  std::string name;
+  Scene scene;
+};
+inline void PrintTo(const TinyScene& tiny, std::ostream* out) { *out << tiny.name; }
+
+/// Poured, then sheared by a lid, from rest to grains on the move.
+TinyScene lid_driven();
+/// Grains of many sizes between side walls on a slope, driven by a gradient under a free surface; terms of Model B.
+TinyScene stream_on_a_slope();
+/// Grains of a table, two of them fixed, sinking in a box without walls.
+TinyScene suspension();
+
+inline std::vector<TinyScene> tiny_scenes() { return {lid_driven(), stream_on_a_slope(), suspension()}; }
+
+}   // namespace bedload::test
