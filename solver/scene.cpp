@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "solver/expected_bed.hpp"
+#include "solver/grains/bed_packing.hpp"
 
 namespace bedload {
 
@@ -23,7 +24,7 @@ void check_grains(const BedScene& bed, Found& found) {
   if (g.spread > 0.3) found.push_back({"grains.spread", fmt::format("{} lets the smallest grain vanish", g.spread), "at most 0.3"});
   if (g.restitution > 1) found.push_back({"grains.restitution", fmt::format("{} makes energy in every collision", g.restitution), "above 0, at most 1"});
   if (g.poisson > 0.49) found.push_back({"grains.poisson", fmt::format("{} is not Poisson's ratio of a solid", g.poisson), "0 to 0.49; glass and quartz: 0.2-0.3"});
-  if (packed(bed) && g.density <= bed.fluid.density)
+  if (needs_settling(bed) && g.density <= bed.fluid.density)
     found.push_back({"grains.density", fmt::format("grains of {} kg/m3 do not settle in a fluid of {} kg/m3", g.density, bed.fluid.density),
                      "heavier grains, or bed.source = \"file\""});
 }
@@ -39,9 +40,10 @@ void check_fit(const BedScene& bed, Found& found) {
     found.push_back({"bed.count", fmt::format("{} grains make a bed about {:.3g} m deep and do not fit the box, {:.3g} m high", bed.source.count, depth, bed.length.z),
                      fmt::format("at most {} grains leave half of the box to the flow", std::floor(0.5 * bed.source.count * bed.length.z / depth))});
   }
-  if (packed(bed) && bed.sides[2] == Side::periodic)
-    found.push_back({"box.z", "grains settle on a bottom, and a periodic z has none", "box.z = \"wall\", or bed.source = \"file\""});
-  if (packed(bed) && norm2(bed.gravity) == 0) found.push_back({"box.gravity", "grains do not settle without gravity", "bed.source = \"file\" or \"none\""});
+  const bool poured = bed.source.kind == BedSource::Kind::poured;
+  if (poured && bed.sides[2] == Side::periodic)
+    found.push_back({"box.z", "poured grains settle on a bottom, and a periodic z has none", "box.z = \"wall\", or bed.source = \"lattice\""});
+  if (poured && norm2(bed.gravity) == 0) found.push_back({"box.gravity", "poured grains do not settle without gravity", "bed.source = \"lattice\", \"file\" or \"none\""});
   if (bed.gravity.z > 0 || std::abs(bed.gravity.x) > std::abs(bed.gravity.z)) found.push_back({"box.slope", "the box may be tilted by at most 45 degrees", "for example \"2 deg\""});
 }
 

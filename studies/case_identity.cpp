@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/digest.hpp"
+#include "solver/grains/bed_packing.hpp"
 #include "solver/state.hpp"
 
 namespace bedload {
@@ -65,8 +66,7 @@ std::string parameter_set_id(const CaseInputs& inputs) {
 }
 
 std::string bed_id(const CaseInputs& inputs) {
-  const auto& source = inputs.word("bed.source");
-  return source == "poured" || source == "lattice" ? case_id(bed_inputs(inputs)) : std::string();
+  return needs_settling(scene_of(inputs).bed) ? case_id(bed_inputs(inputs)) : std::string();
 }
 
 std::string short_id(const std::string& id) { return id.substr(0, 12); }

@@ -27,7 +27,7 @@ namespace {
 double significant(double value, int digits) { return std::strtod(fmt::format("{:.{}e}", value, digits - 1).c_str(), nullptr); }
 constexpr int exact_digits = 12;   // of products such as 20 d: hides 0.0077999999999999996
 constexpr int time_digits = 6;     // of grain times
-constexpr int auto_digits = 4;     // of a stiffness and a step that bedload chose
+constexpr int auto_digits = 4;     // of a step that bedload chose
 
 constexpr std::string_view ramp_parts[] = {"from", "ratio", "step", "steps"};
 constexpr std::string_view staircases[] = {"drive.shields", "drive.speed", "drive.gradient"};
@@ -67,7 +67,6 @@ class Resolver {
   void stiffness();
   void dem_step();
   double rayleigh_time_of_smallest() const;
-  double layers() const;
   double number(std::string_view key) const { return inputs_.number(key); }
   const std::string& word(std::string_view key) const { return inputs_.word(key); }
 
@@ -258,14 +257,10 @@ void Resolver::models() {
   }
 }
 
-/// Number of layers that rest on the lowest grains.
-double Resolver::layers() const {
-  return std::max(1.0, expected_bed_depth(scene_of(inputs_).bed) / number("grains.diameter"));
-}
-
 void Resolver::stiffness() {
   if (!is_auto("grains.stiffness")) return take("grains.stiffness");
-  inputs_.values["grains.stiffness"] = significant(automatic_young_modulus(scene_of(inputs_).bed, layers()), auto_digits);
+  const auto bed = scene_of(inputs_).bed;
+  inputs_.values["grains.stiffness"] = automatic_young_modulus(bed, bed_layers(bed));
 }
 
 double Resolver::rayleigh_time_of_smallest() const {

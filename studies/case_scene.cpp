@@ -16,12 +16,19 @@ namespace {
 /// The number, or zero while inputs are still being resolved.
 double number_or_zero(const CaseInputs& inputs, std::string_view key) { return inputs.has(key) ? inputs.number(key) : 0; }
 
+/// Rows of a table below its heading.
+std::uint64_t rows_of(const std::string& csv) {
+  if (csv.empty()) return 0;
+  const auto lines = std::ranges::count(csv, '\n') + (csv.back() == '\n' ? 0 : 1);
+  return static_cast<std::uint64_t>(std::max<std::ptrdiff_t>(0, lines - 1));
+}
+
 BedSource source_of(const CaseInputs& inputs) {
   using Kind = BedSource::Kind;
   const auto& source = inputs.word("bed.source");
   const Kind kind = source == "poured" ? Kind::poured : source == "lattice" ? Kind::lattice : source == "file" ? Kind::file : Kind::none;
   BedSource made{.kind = kind, .csv = inputs.csv};
-  made.count = static_cast<std::uint64_t>(number_or_zero(inputs, "bed.count"));
+  made.count = kind == Kind::file ? rows_of(inputs.csv) : static_cast<std::uint64_t>(number_or_zero(inputs, "bed.count"));
   if (inputs.has("bed.seed")) made.seed = static_cast<std::uint64_t>(inputs.number("bed.seed"));
   return made;
 }

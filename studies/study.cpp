@@ -109,7 +109,7 @@ Case make_case(const Study& study, const Choice& choice, CaseInputs inputs) {
     append(made.label, fmt::format("s{}", made.seed));
   }
   if (made.label.empty()) made.label = "case";
-  if (made.set_label.empty()) made.set_label = study.name;
+  if (made.set_label.empty()) made.set_label = "case";
   made.scene = scene_of(inputs);
   made.inputs = std::move(inputs);
   return made;

@@ -1,0 +1,212 @@
+// Lock, fence, state; then step after step, with a heartbeat a second and a checkpoint when due.
+#include "studies/case_runner.hpp"
+
+#include <unistd.h>
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "base/build_info.hpp"
+#include "base/durable_file.hpp"
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "checkpoint/checkpoint.hpp"
+#include "checkpoint/checkpoint_series.hpp"
+#include "scheduler/attempt.hpp"
+#include "scheduler/heartbeat.hpp"
+#include "scheduler/request.hpp"
+#include "solver/experiment.hpp"
+#include "studies/case_file.hpp"
+#include "studies/performance.hpp"
+#include "studies/stop_signals.hpp"
+
+namespace bedload {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double heartbeat_interval = 1;        // wall time [s]
+constexpr double hopeless_overlap = 0.5;        // of a contact, per diameter: grains have passed through each other
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// Why a run cannot go on after such a step; empty if it can.
+std::string ailment(const StepHealth& health) {
+  if (!health.finite) return "a velocity, force or pressure is not finite";
+  if (health.deepest_overlap > hopeless_overlap)
+    return fmt::format("grains overlap by {:.2g} of a diameter (at most {} can be healed)", health.deepest_overlap, hopeless_overlap);
+  return {};
+}
+
+/// One attempt at one case.
+class Worker {
+ public:
+  explicit Worker(const RunCaseRequest&);
+  int run();
+
+ private:
+  State first_state();
+  void continue_or_end_ramp();
+  int advance();
+  void step();
+  void beat();
+  void publish();
+  void finish();
+  bool reached() const;
+  bool asked_to_stop() const { return StopSignals::arrived() || requested_; }
+  void say(const std::string& line) const { request_.report(line); }
+
+  const RunCaseRequest& request_;
+  const fs::path& directory_;
+  CaseDirectory case_;
+  Experiment experiment_;
+  CheckpointSeries checkpoints_;
+  State state_;
+  Attempt attempt_;
+  Performance performance_;
+  double began_ = now(), last_beat_ = 0, last_checkpoint_ = 0;
+  std::uint64_t first_step_ = 0;
+  std::uint64_t published_step_ = 0;
+  bool requested_ = false;
+};
+
+Worker::Worker(const RunCaseRequest& request)
+    : request_(request),
+      directory_(request.directory),
+      case_(read_case_directory(request.directory)),
+      experiment_(case_.scene),
+      checkpoints_(request.directory, case_.run.checkpoint_keep, [](const std::string& line) { log_warning(line); }) {}
+
+/// Newest checkpoint, else the bed that was prepared, else grains as they are placed.
+State Worker::first_state() {
+  if (auto newest = checkpoints_.newest()) {
+    published_step_ = newest->clock.step;
+    return std::move(*newest);
+  }
+  if (!case_.scene.bed_only && fs::exists(directory_ / "bed.h5")) return experiment_.begin_on(read_checkpoint(directory_ / "bed.h5"));
+  return experiment_.begin();
+}
+
+/// The ramp may have been made longer, or shorter than what is done already.
+void Worker::continue_or_end_ramp() {
+  if (experiment_.reopen(state_)) return say("the ramp goes on: it was made longer, or its onset criterion changed");
+  const bool past_the_end = state_.search.phase == Search::holding && state_.search.hold >= case_.scene.drive.levels.size();
+  if (past_the_end) state_.search.phase = Search::finished;
+}
+
+int Worker::run() {
+  attempt_ = open_attempt(directory_);
+  attempt_.version = fmt::format("{} {}", build_info().version, build_info().commit);
+  attempt_.compiler = build_info().compiler;
+  try {
+    state_ = first_state();
+    continue_or_end_ramp();
+    attempt_.from_step = attempt_.step = first_step_ = state_.clock.step;
+    write_attempt(directory_, attempt_);
+    const int code = advance();
+    close_attempt(directory_, attempt_, Experiment::finished(state_) ? Cause::finished : Cause::stopped);
+    return code;
+  } catch (const Error& error) {
+    attempt_.core_seconds = now() - began_;
+    if (error.kind != ErrorKind::fenced) close_attempt(directory_, attempt_, cause_of(error.kind), error.what());
+    throw;
+  }
+}
+
+bool Worker::reached() const {
+  return request_.until && state_.search.phase == Search::holding && state_.clock.time >= *request_.until;
+}
+
+int Worker::advance() {
+  const auto& bed = case_.scene.bed;
+  say(fmt::format("{}: {} grains, {} cells, E = {:.3g} Pa, DEM step {:.3g} s, fluid step at most {:.3g} s; from step {}", case_.label,
+                  state_.grains.size(), case_.scene.grid.cell_count(), bed.grains.young_modulus, bed.dem_step,
+                  case_.scene.steps.fluid_interval, state_.clock.step));
+  last_checkpoint_ = now();
+  while (!Experiment::finished(state_) && !reached() && !asked_to_stop()) {
+    step();
+    if (now() - last_beat_ >= heartbeat_interval) beat();
+    if (now() - last_checkpoint_ >= case_.run.checkpoint_every) publish();
+  }
+  publish();
+  beat();
+  if (Experiment::finished(state_)) finish();
+  say(describe(performance_, experiment_.coupler().times()));
+  if (Experiment::finished(state_)) return 0;
+  say(fmt::format("stopped at step {}, {:.4g} s; run it again to go on", state_.clock.step, state_.clock.time));
+  return reached() ? 0 : static_cast<int>(ErrorKind::stopped);
+}
+
+void Worker::step() {
+  const bool coupled = state_.search.phase == Search::holding;
+  const auto health = experiment_.step(state_);
+  if (const auto cause = ailment(health); !cause.empty()) {
+    throw Error(ErrorKind::numerical,
+                fmt::format("{}: step {} at {:.6g} s: {} (fluid step {:.3g} s, CFL {:.2g})", case_.label, state_.clock.step, state_.clock.time, cause, health.dt, health.cfl),
+                "the checkpoint before is kept; a shorter steps.dem or steps.fluid, or stiffer grains, may help");
+  }
+  if (coupled) performance_.add(health, state_.grains.size(), case_.scene.grid.cell_count());
+}
+
+void Worker::beat() {
+  last_beat_ = now();
+  const auto& search = state_.search;
+  const double wall = last_beat_ - began_;
+  attempt_.step = state_.clock.step;
+  attempt_.core_seconds = wall;
+  Heartbeat beat;
+  beat.pid = ::getpid();
+  beat.step = state_.clock.step;
+  beat.phase = search.phase == Search::packing ? "packing" : search.phase == Search::holding ? "ramp" : "finished";
+  beat.time = search.phase == Search::packing ? 0 : state_.clock.time;
+  beat.planned_time = case_.scene.bed_only ? 0 : experiment_.planned_time();
+  beat.hold = static_cast<int>(search.hold) + 1;
+  beat.holds = static_cast<int>(case_.scene.drive.levels.size());
+  beat.shields = search.shields;
+  beat.steps_per_second = static_cast<double>(state_.clock.step - first_step_) / wall;
+  beat.wall_time = wall;
+  write_heartbeat(directory_, beat);
+  requested_ = read_request(directory_).has_value();
+}
+
+/// A checkpoint, if there is news and this attempt still owns the case.
+void Worker::publish() {
+  if (highest_attempt(directory_) != attempt_.number)
+    throw Error(ErrorKind::fenced, fmt::format("{}: another attempt has taken over the case", directory_.string()));
+  if (state_.clock.step != published_step_ || Experiment::finished(state_)) checkpoints_.publish(state_);
+  published_step_ = state_.clock.step;
+  last_checkpoint_ = now();
+}
+
+void Worker::finish() {
+  if (case_.scene.bed_only) write_checkpoint(directory_ / "bed.h5", state_);
+}
+
+/// Finished, and nothing of what it leaves is missing.
+bool complete(const fs::path& directory) {
+  const auto newest = newest_position(directory);
+  if (!newest || !newest->finished) return false;
+  const auto one = read_case_directory(directory);
+  if (one.scene.bed_only) return fs::exists(directory / "bed.h5");
+  auto state = CheckpointSeries(directory, one.run.checkpoint_keep, [](const std::string&) {}).newest();
+  return state && !Experiment(one.scene).reopen(*state);
+}
+
+}  // namespace
+
+int run_case(const RunCaseRequest& request) {
+  if (!fs::exists(request.directory / "case.toml"))
+    throw Error(ErrorKind::not_found, fmt::format("{} is not a case directory: it has no case.toml", request.directory.string()),
+                "`bedload run STUDY --prepare` makes case directories");
+  const StopSignals signals;
+  const auto lock = FileLock::lock_or_refuse(request.directory / "lock", fmt::format("case {}", request.directory.string()));
+  if (complete(request.directory)) {
+    request.report("finished already");
+    return 0;
+  }
+  return Worker(request).run();
+}
+
+}  // namespace bedload
