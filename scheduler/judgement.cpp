@@ -25,10 +25,8 @@ bool is_death(Cause cause) {
 
 Standstill standstill(const Position& position, const std::vector<Attempt>& attempts) {
   Standstill still;
-  std::uint64_t after = position.step;   // where the attempt under the eye left the checkpoint
   for (auto a = attempts.rbegin(); a != attempts.rend(); ++a) {
-    if (a->from_step.value_or(after) < after) break;
-    after = a->from_step.value_or(after);
+    if (a->from_step.value_or(position.step) < position.step) break;   // the checkpoint has moved since
     if (!is_death(a->cause)) continue;
     ++still.deaths;
     still.out_of_memory += a->cause == Cause::out_of_memory;

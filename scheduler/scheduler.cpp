@@ -265,7 +265,7 @@ std::vector<Attempt> Scheduler::completed_attempts(const Running& r, const JobEn
   auto attempts = read_attempts(directory);
   const Cause cause = r.silenced || !end ? Cause::killed : cause_of(*end);
   const std::string message = r.silenced ? "it was silent" : end ? fmt::format("{}, see log.{}", describe(*end), r.attempt)
-                                        : "it ended while no scheduler watched";
+                                        : "it died; its scheduler had gone before";
   const bool opened = !attempts.empty() && attempts.back().number >= r.attempt;
   if (!opened && end && cause != Cause::fenced && !world_.newest(directory).finished) {
     attempts.push_back(open_attempt(directory));
@@ -295,7 +295,6 @@ void Scheduler::settle(Work& work, const std::vector<Attempt>& attempts, bool as
       set_state(work, CaseState::pending, judgement.reason);
       break;
     case Verdict::again:
-      work.set_aside = on_request;
       set_state(work, on_request ? CaseState::stopped : CaseState::pending, judgement.reason);
       work.not_before = world_.clock();
       if (judgement.without_progress > 0)

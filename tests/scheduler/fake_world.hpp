@@ -87,14 +87,14 @@ class FakeExecutor : public Executor {
 
   void ask_to_stop(JobId job) override {
     asked.push_back(playing_.at(job).directory.filename().string());
-    if (playing_.at(job).act.until_asked) playing_.at(job).until = now;
+    if (playing_.at(job).act.until_asked) playing_.at(job).until = now + 2;
   }
 
   void kill(JobId job) override {
     auto& p = playing_.at(job);
     killed.push_back(p.directory.filename().string());
     p.act = Act::killed(0);
-    p.until = now;
+    p.until = now + 2;
   }
 
   double now = 1000;

@@ -101,6 +101,18 @@ TEST(Scheduler, ResumesWhatWasInterrupted) {
   EXPECT_EQ(attempts[1].from_step, 40u);
 }
 
+TEST(Scheduler, ResumesAtOnceHoweverOftenTheCaseWasKilledBefore) {
+  FakeStudy study;
+  study.add_case("a");
+  for (int i = 0; i < 6; ++i) {
+    Attempt dead = open_attempt(study.directory_of("a"));
+    close_attempt(study.directory_of("a"), dead, Cause::killed);
+  }
+  const double before = study.executor.now;
+  EXPECT_EQ(study.run().exit_code, 0);
+  EXPECT_LE(study.executor.now - before, 11);   // the attempt itself takes 10 s
+}
+
 TEST(Scheduler, GoesOnAsLongAsKilledWorkersMakeProgress) {
   FakeStudy study;
   study.add_case("a");
@@ -334,7 +346,23 @@ TEST(Scheduler, WatchesTheOwnerWhenItsOwnWorkerWasFenced) {
   EXPECT_EQ(study.executor.started.size(), 2u);
   const auto attempts = read_attempts(study.directory_of("a"));
   ASSERT_EQ(attempts.size(), 2u);
+  EXPECT_EQ(attempts[0].message, "it died; its scheduler had gone before") << "nobody else wrote into the owner's attempt";
   EXPECT_EQ(attempts[1].cause, Cause::finished);
+}
+
+TEST(Scheduler, TakesNoNumberFromAnOwnerThatIsAboutToOpenItsAttempt) {
+  FakeStudy study;
+  study.add_case("a");
+  std::optional<FileLock> rival;
+  study.executor.scripts["a"] = {{0, false, {}, {0, 73, 0}, 0, 5, false, false}, Act::finish()};
+  int highest = -1;
+  study.executor.at_turn = [&] {
+    if (!rival && study.executor.now > 1002 && study.executor.now < 1030) rival = FileLock::try_lock(study.directory_of("a") / "lock");
+    if (study.executor.now < 1030) highest = highest_attempt(study.directory_of("a"));
+    else rival.reset();
+  };
+  EXPECT_EQ(study.run().exit_code, 0);
+  EXPECT_EQ(highest, 0);
 }
 
 TEST(Scheduler, KillsASilentAdoptedWorker) {
