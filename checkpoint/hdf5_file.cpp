@@ -15,7 +15,7 @@
 namespace bedload {
 namespace {
 
-constexpr std::size_t image_growth = std::size_t(8) << 20;   // bytes by which the image in memory grows
+constexpr std::size_t image_growth = std::size_t(1) << 20;   // bytes by which the image in memory grows
 constexpr std::uint64_t chunk_bytes = std::uint64_t(16) << 20;
 
 static_assert(std::is_same_v<hid_t, std::int64_t>, "the header keeps handles as std::int64_t");
@@ -124,6 +124,14 @@ Handle dataset_layout(std::span<const std::uint64_t> shape, std::size_t number_b
   return layout;
 }
 
+/// An index node has room for 2 x 32 chunks by default; nearly all our arrays are one chunk, and the room would be most
+/// of a small file.
+Handle file_with_small_indices() {
+  Handle creation = timeless(H5P_FILE_CREATE);
+  made(H5Pset_istore_k(creation, 2), "a file with small chunk indices");
+  return creation;
+}
+
 /// Makes the groups on the way to a data set.
 void make_groups(hid_t file, const std::string& path) {
   for (auto slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1)) {
@@ -182,7 +190,7 @@ Hdf5Writer::Hdf5Writer() {
   silence_hdf5();
   // HDF5 takes two files in memory of one name for the same file, so the name is this object's own.
   const std::string name = fmt::format("in memory, written by {}", static_cast<const void*>(this));
-  const Handle access = file_access_in_memory(), creation = timeless(H5P_FILE_CREATE);
+  const Handle access = file_access_in_memory(), creation = file_with_small_indices();
   file_ = made(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation, access), "a file in memory");
 }
 
