@@ -1,0 +1,31 @@
+// The figures of the report, each from the tables it names.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scheduler/database.hpp"
+#include "studies/threshold_curve.hpp"
+
+namespace bedload {
+
+/// Table threshold_curve, beside the published curves: theta_c over Re*, logarithmic; open markers with arrows are bounds.
+std::string threshold_figure(const std::vector<ThresholdPoint>&);
+
+/// A case whose results are stored.
+struct FinishedCase {
+  std::string id, label;
+  double diameter = 0;   // [m]
+};
+/// In the order of the curve, cases of the study only.
+std::vector<FinishedCase> finished_cases(const Database&);
+
+/// Tables ramp_points and thresholds: flux over measured Shields number, the criterion, the bracket.
+std::string ramp_figure(const Database&, const FinishedCase&);
+/// Table bed_statistics: porosity before the ramp and after it; fluid and grain velocity at its end.
+std::string porosity_figure(const Database&, const FinishedCase&);
+std::string velocity_figure(const Database&, const FinishedCase&);
+/// Table samples: moving fraction in time, the ramp's steps shaded.
+std::string history_figure(const Database&, const FinishedCase&);
+
+}  // namespace bedload
