@@ -1,0 +1,48 @@
+// A settled bed of free grains in still fluid stays at rest: the little motion it begins with dies away.
+#include <gtest/gtest.h>
+
+#include "solver/coupler.hpp"
+#include "solver/coupling/drag_laws.hpp"
+#include "solver/fluid/face_loops.hpp"
+#include "solver/grains/bed_packing.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bedload::test {
+namespace {
+
+double fastest_flow(const Scene& scene, const State& state) {
+  double fastest = 0;
+  for (int c = 0; c < 3; ++c)
+    for_each_unknown_face(scene.grid, c, [&, u = state.fluid.velocity.component(c)](std::size_t n) { fastest = std::max(fastest, std::abs(u[n])); });
+  return fastest;
+}
+
+TEST(FreeBed, ComesToRestInStillFluid) {
+  const double d = 5e-4, s = 2.65, nu = 1e-5;
+  Scene scene = fluid_scene({4, 4, 20}, {2 * d, 2 * d, 0.5 * d}, channel, nu);
+  scene.bed.gravity = {0, 0, -9.81};
+  const double terminal = terminal_speed(DragLawName::di_felice, nu, s, d, 9.81);
+  add_grains(scene, d, s, terminal);
+  scene.bed.grains.spread = 0.05;
+  scene.bed.source = {BedSource::Kind::poured, 250, {}, 1};
+  State state = state_of(scene, {}, false);
+  state.grains = place_grains(scene.bed);
+  BedPacking packing(scene.bed);
+  bool settled = false;
+  for (int i = 0; i < 5000 && !settled; ++i) settled = packing.advance(state.grains, state.contacts).settled;
+  ASSERT_TRUE(settled);
+  renumber_in_space(scene.bed, state.grains, state.contacts);
+
+  Coupler coupler(scene);
+  double early = 0, late = 0;
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_TRUE(coupler.step(state, scene.steps.fluid_interval).finite);
+    if (i < 250) early = std::max(early, fastest_flow(scene, state));
+    if (i >= 990) late = std::max(late, fastest_flow(scene, state));
+  }
+  EXPECT_LT(late, 1e-4 * terminal);
+  EXPECT_LT(late, early);
+}
+
+}  // namespace
+}  // namespace bedload::test
