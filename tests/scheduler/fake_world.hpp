@@ -94,6 +94,7 @@ class FakeExecutor : public Executor {
     auto& p = playing_.at(job);
     killed.push_back(p.directory.filename().string());
     p.act = Act::killed(0);
+    p.act.beats = false;
     p.until = now + 2;
   }
 
