@@ -1,47 +1,61 @@
 // Each ghost layer is an affine image of a layer inside: copied, reflected, or reflected about a moving wall.
 #include "solver/fluid/boundaries.hpp"
 
+#include <initializer_list>
+
 namespace bedload {
 namespace {
 
 struct Image {
   int ghost, source;   // layers along the direction
   double sign, offset;
+
+  double of(double value) const noexcept { return sign == 0 ? 0.0 : offset + sign * value; }
 };
 
-void fill_layer(const StaggeredGrid& g, double* field, int direction, Image image) noexcept {
-  const std::ptrdiff_t step = g.stride(direction), reach = (image.source - image.ghost) * step;
-  const int a = direction == 0 ? 1 : 0, b = direction == 2 ? 1 : 2;
-  double* layer = field + (image.ghost + StaggeredGrid::ghosts) * step;
-  for (int m = 0; m < g.cells[a] + 2 * StaggeredGrid::ghosts; ++m)
-    for (int n = 0; n < g.cells[b] + 2 * StaggeredGrid::ghosts; ++n) {
-      double* ghost = layer + m * g.stride(a) + n * g.stride(b);
-      *ghost = image.sign == 0 ? 0.0 : image.offset + image.sign * ghost[reach];
+/// Fills layers of one direction from others, in the order of the images: inner layers come before outer ones, so that a
+/// box one cell wide reflects its own reflections.
+void fill_layers(const StaggeredGrid& g, double* field, int direction, std::initializer_list<Image> images) noexcept {
+  constexpr int ghosts = StaggeredGrid::ghosts;
+  const std::ptrdiff_t step = g.stride(direction);
+  const int nz = g.cells[2] + 2 * ghosts;
+  if (direction == 2) {
+    const std::size_t rows = g.padded_size() / nz;
+    for (std::size_t r = 0; r < rows; ++r) {
+      double* row = field + r * nz + ghosts;
+      for (const Image& m : images) row[m.ghost] = m.of(row[m.source]);
+    }
+    return;
+  }
+  const int other = 1 - direction;
+  for (const Image& m : images)
+    for (int r = 0; r < g.cells[other] + 2 * ghosts; ++r) {
+      double* row = field + r * g.stride(other);
+      double* ghost = row + (m.ghost + ghosts) * step;
+      const double* source = row + (m.source + ghosts) * step;
+      for (int k = 0; k < nz; ++k) ghost[k] = m.of(source[k]);
     }
 }
 
 void fill_periodic(const StaggeredGrid& g, double* field, int c) noexcept {
   const int n = g.cells[c];
-  for (int ghost : {-1, n, -2, n + 1}) fill_layer(g, field, c, {ghost, ((ghost % n) + n) % n, 1, 0});
+  fill_layers(g, field, c,
+              {{-1, n - 1, 1, 0}, {n, 0, 1, 0}, {-2, n > 1 ? n - 2 : 0, 1, 0}, {n + 1, n > 1 ? 1 : 0, 1, 0}});
 }
 
-/// Inner layers before outer ones, so that a box one cell wide reflects its own reflections.
-void fill_centred_at_walls(const StaggeredGrid& g, double* field, int c, double sign, double low, double high,
-                           double high_sign) noexcept {
+void fill_centred_at_walls(const StaggeredGrid& g, double* field, int c, double low_sign, double high_sign,
+                           double high_offset) noexcept {
   const int n = g.cells[c];
-  fill_layer(g, field, c, {-1, 0, sign, low});
-  fill_layer(g, field, c, {n, n - 1, high_sign, high});
-  fill_layer(g, field, c, {-2, 1, sign, low});
-  fill_layer(g, field, c, {n + 1, n - 2, high_sign, high});
+  fill_layers(g, field, c,
+              {{-1, 0, low_sign, 0},
+               {n, n - 1, high_sign, high_offset},
+               {-2, 1, low_sign, 0},
+               {n + 1, n - 2, high_sign, high_offset}});
 }
 
 void fill_normal_at_walls(const StaggeredGrid& g, double* field, int c) noexcept {
   const int n = g.cells[c];
-  fill_layer(g, field, c, {0, 0, 0, 0});
-  fill_layer(g, field, c, {n, n, 0, 0});
-  fill_layer(g, field, c, {-1, 1, -1, 0});
-  fill_layer(g, field, c, {n + 1, n - 1, -1, 0});
-  fill_layer(g, field, c, {-2, 2, -1, 0});
+  fill_layers(g, field, c, {{0, 0, 0, 0}, {n, n, 0, 0}, {-1, 1, -1, 0}, {n + 1, n - 1, -1, 0}, {-2, 2, -1, 0}});
 }
 
 }   // namespace
@@ -54,14 +68,14 @@ void fill_velocity_ghosts(const StaggeredGrid& g, FaceFields& velocity, double l
       const double top_speed = c == 2 && component == 0 && !slips ? lid_speed : 0;
       if (g.periodic(c)) fill_periodic(g, u, c);
       else if (component == c) fill_normal_at_walls(g, u, c);
-      else fill_centred_at_walls(g, u, c, -1, 0, 2 * top_speed, slips ? 1 : -1);
+      else fill_centred_at_walls(g, u, c, -1, slips ? 1 : -1, 2 * top_speed);
     }
 }
 
 void fill_centre_ghosts(const StaggeredGrid& g, Field<Centre>& field) {
   for (int c = 0; c < 3; ++c) {
     if (g.periodic(c)) fill_periodic(g, field.data(), c);
-    else fill_centred_at_walls(g, field.data(), c, 1, 0, 0, 1);
+    else fill_centred_at_walls(g, field.data(), c, 1, 1, 0);
   }
 }
 

@@ -1,4 +1,4 @@
-// Plain loops in one order: a library's blocked sums would depend on alignment.
+// Plain loops in one order (a library's blocked sums would depend on alignment), each update a row at a time.
 #include "solver/fluid/coarsest_solve.hpp"
 
 #include <cmath>
@@ -8,26 +8,33 @@ namespace bedload {
 
 void CoarsestSolve::factor(int n, std::vector<double> matrix) {
   n_ = n;
-  lower_ = std::move(matrix);
+  factor_ = std::move(matrix);
   double trace = 0;
-  for (int i = 0; i < n; ++i) trace += lower_[i * n + i];
+  for (int i = 0; i < n; ++i) trace += factor_[i * n + i];
   const double shift = trace > 0 ? trace / (double(n) * n) : 1;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j <= i; ++j) {
-      double sum = lower_[i * n + j] + shift;
-      for (int k = 0; k < j; ++k) sum -= lower_[i * n + k] * lower_[j * n + k];
-      lower_[i * n + j] = i == j ? 1 / std::sqrt(sum) : sum * lower_[j * n + j];
+  for (double& a : factor_) a += shift;
+  for (int k = 0; k < n; ++k) {   // column k of L stands, by symmetry, in row k as well
+    double* column = &factor_[k * n];
+    column[k] = 1 / std::sqrt(column[k]);
+    for (int i = k + 1; i < n; ++i) column[i] *= column[k];
+    for (int i = k + 1; i < n; ++i) {
+      double* row = &factor_[i * n];
+      const double factor = row[k] = column[i];
+      for (int j = i; j < n; ++j) row[j] -= factor * column[j];
     }
+  }
 }
 
 void CoarsestSolve::solve(double* x) const noexcept {
-  for (int i = 0; i < n_; ++i) {
-    for (int k = 0; k < i; ++k) x[i] -= lower_[i * n_ + k] * x[k];
-    x[i] *= lower_[i * n_ + i];
+  for (int k = 0; k < n_; ++k) {
+    const double* column = &factor_[k * n_];
+    const double here = x[k] *= column[k];
+    for (int i = k + 1; i < n_; ++i) x[i] -= column[i] * here;
   }
   for (int i = n_ - 1; i >= 0; --i) {
-    x[i] *= lower_[i * n_ + i];
-    for (int k = 0; k < i; ++k) x[k] -= lower_[i * n_ + k] * x[i];
+    const double* row = &factor_[i * n_];
+    const double here = x[i] *= row[i];
+    for (int k = 0; k < i; ++k) x[k] -= row[k] * here;
   }
 }
 

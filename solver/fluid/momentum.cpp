@@ -4,79 +4,12 @@
 #include <algorithm>
 
 #include "solver/fluid/boundaries.hpp"
+#include "solver/fluid/flux_closure.hpp"
 #include "solver/fluid/operators.hpp"
 #include "solver/fluid/rows.hpp"
 
 namespace bedload {
 namespace {
-
-/// Neighbouring lines along one direction, worked on together: the entries of one position are `lanes` contiguous numbers.
-struct Bundle {
-  std::size_t first;     // index at position 0, lane 0
-  std::ptrdiff_t step;   // from one position to the next
-  int lanes;
-};
-
-template <class Body>
-void for_each_bundle(const StaggeredGrid& g, int c, Body&& body) {
-  if (c == 2) {
-    for_each_cell_row(g, [&](std::size_t row, int) { body(Bundle{row, 1, 1}); });
-    return;
-  }
-  const int other = 1 - c;
-  for (int m = 0; m < g.cells[other]; ++m)
-    body(Bundle{g.index(0, 0, 0) + m * g.stride(other), g.stride(c), g.cells[2]});
-}
-
-/// What the averaged flux lacks on the control volume of each face of a bundle: S = (eps' - eps)/dt + half the sum of the two
-/// cells' divergence (cells outside a wall count zero). `mean` receives the mean of S over each line.
-void line_sources(Bundle b, int faces, bool periodic, const double* divergence, const double* before,
-                  const double* after, double dt, double* source, double* mean) noexcept {
-  std::fill_n(mean, b.lanes, 0.0);
-  for (int i = 0; i < faces; ++i) {
-    const std::size_t at = b.first + i * b.step;
-    const double low = periodic || i > 0 ? 0.5 : 0, high = periodic || i < faces - 1 ? 0.5 : 0;
-    for (int l = 0; l < b.lanes; ++l) {
-      const std::size_t n = at + l;
-      source[n] = (after[n] - before[n]) / dt + low * divergence[n - b.step] + high * divergence[n];
-      mean[l] += source[n];
-    }
-  }
-  for (int l = 0; l < b.lanes; ++l) mean[l] /= faces;
-}
-
-/// Turns the sources into the correction D at the cell centre after each face: D_right = D_left - h (S - mean S).
-/// Between walls D is zero outside; in a periodic line its mean is zero.
-void integrate_sources(Bundle b, int cells, bool periodic, double h, double* correction, double* mean,
-                       double* running) noexcept {
-  std::fill_n(running, b.lanes, 0.0);
-  for (int i = 0; i < cells; ++i)
-    for (int l = 0; l < b.lanes; ++l) {
-      double& d = correction[b.first + i * b.step + l];
-      d = running[l] -= h * (d - mean[l]);
-    }
-  if (!periodic) return;
-  std::fill_n(mean, b.lanes, 0.0);
-  for (int i = 0; i < cells; ++i)
-    for (int l = 0; l < b.lanes; ++l) mean[l] += correction[b.first + i * b.step + l] / cells;
-  for (int i = 0; i < cells; ++i)
-    for (int l = 0; l < b.lanes; ++l) correction[b.first + i * b.step + l] -= mean[l];
-  std::copy_n(correction + b.first + (cells - 1) * b.step, b.lanes, correction + b.first - b.step);
-}
-
-/// The correction of component c's own flux, at cell centres (centre i stands at the index of face i).
-void close_flux(const StaggeredGrid& g, int c, const double* before, const double* after, double dt,
-                TransportScratch& scratch) {
-  const bool periodic = g.periodic(c);
-  const int cells = g.cells[c], faces = periodic ? cells : cells + 1;
-  double* correction = scratch.face_source.component(c);
-  double* mean = scratch.rows.data();
-  double* running = mean + scratch.rows.size() / 2;
-  for_each_bundle(g, c, [&](Bundle b) {
-    line_sources(b, faces, periodic, scratch.divergence.data(), before, after, dt, correction, mean);
-    integrate_sources(b, cells, periodic, g.h[c], correction, mean, running);
-  });
-}
 
 /// Value at the side between `low` and `high`, seen from upwind, with van Leer's limiter (J. Comput. Phys. 14, 1974):
 /// half of the harmonic mean of the slopes on both sides of the upwind value.
@@ -141,10 +74,25 @@ void carry_along(const StaggeredGrid& g, int c, int t, const double* flux, const
   }
 }
 
+/// div F with the ghosts that close_flux() reads.
+void find_divergence(const StaggeredGrid& g, const FaceFields& flux, Field<Centre>& out) {
+  divergence(g, flux, out);
+  fill_centre_ghosts(g, out);
+  for (int c = 0; c < 3; ++c) {
+    if (g.periodic(c)) continue;
+    const int a = c == 0 ? 1 : 0, b = c == 2 ? 1 : 2;
+    double* low = out.data() + g.index(0, 0, 0) - g.stride(c);
+    for (int m = 0; m < g.cells[a]; ++m)
+      for (int n = 0; n < g.cells[b]; ++n) {
+        double* outside = low + m * g.stride(a) + n * g.stride(b);
+        outside[0] = outside[(g.cells[c] + 1) * g.stride(c)] = 0;
+      }
+  }
+}
+
 void prepare(const StaggeredGrid& g, TransportScratch& scratch) {
-  if (scratch.divergence.values.size() == g.padded_size() && scratch.divergence.cells == g.cells) return;
-  scratch.divergence = Field<Centre>(g);
-  scratch.face_source = scratch.result = FaceFields(g);
+  if (scratch.correction.cells == g.cells) return;
+  scratch.divergence = scratch.correction = scratch.momentum = Field<Centre>(g);
   scratch.rows.assign(2 * (g.cells[2] + 2 * StaggeredGrid::ghosts), 0.0);
 }
 
@@ -153,19 +101,16 @@ void prepare(const StaggeredGrid& g, TransportScratch& scratch) {
 void transport(const StaggeredGrid& g, const FaceFields& flux, const FaceFields& void_before,
                const FaceFields& void_after, double dt, FaceFields& velocity, TransportScratch& scratch) {
   prepare(g, scratch);
-  divergence(g, flux, scratch.divergence);
-  fill_centre_ghosts(g, scratch.divergence);
+  find_divergence(g, flux, scratch.divergence);
+  double *momentum = scratch.momentum.data(), *correction = scratch.correction.data();
   for (int c = 0; c < 3; ++c) {
-    const double* before = void_before.component(c);
-    const double* after = void_after.component(c);
+    const double *before = void_before.component(c), *after = void_after.component(c);
     double* u = velocity.component(c);
-    double* momentum = scratch.result.component(c);
-    close_flux(g, c, before, after, dt, scratch);
+    close_flux(g, c, scratch.divergence, before, after, dt, correction, scratch.sums);
     for_each_face_row(g, c, [&](std::size_t row, int length) {
       for (std::size_t n = row; n < row + length; ++n) momentum[n] = before[n] * u[n];
     });
-    for (int t = 0; t < 3; ++t)
-      carry_along(g, c, t, flux.component(t), scratch.face_source.component(c), u, dt, momentum, scratch.rows);
+    for (int t = 0; t < 3; ++t) carry_along(g, c, t, flux.component(t), correction, u, dt, momentum, scratch.rows);
     for_each_face_row(g, c, [&](std::size_t row, int length) {
       for (std::size_t n = row; n < row + length; ++n) u[n] = momentum[n] / after[n];
     });

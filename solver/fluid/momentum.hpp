@@ -7,10 +7,8 @@ namespace bedload {
 
 /// Scratch of transport(), kept between calls to save allocation.
 struct TransportScratch {
-  FaceFields face_source;
-  Field<Centre> divergence;
-  FaceFields result;
-  std::vector<double> rows;
+  Field<Centre> divergence, correction, momentum;
+  std::vector<double> rows, sums;
 };
 
 /// u_f = [eps_f u_f - dt sum F u_face/h]/eps'_f on every unknown face, with F the volume flux [m/s] whose divergence is

@@ -30,6 +30,17 @@ void split(const float* __restrict row, int cells, float* __restrict even, float
   if (cells % 2) even[pairs] = row[2 * pairs];
 }
 
+/// Adds weight x the even and odd entries of a row to their sums.
+void add_split(const float* __restrict row, float weight, int cells, float* __restrict even,
+               float* __restrict odd) noexcept {
+  const int pairs = cells / 2;
+  for (int m = 0; m < pairs; ++m) {
+    even[m] += weight * row[2 * m];
+    odd[m] += weight * row[2 * m + 1];
+  }
+  if (cells % 2) even[pairs] += weight * row[2 * pairs];
+}
+
 template <class Number>
 void join(const float* __restrict even, const float* __restrict odd, int cells, Number* __restrict row) noexcept {
   const int pairs = cells / 2;
@@ -110,14 +121,17 @@ void MultigridLevel::aggregate_couplings(const MultigridLevel& fine, std::array<
     std::fill(coupling_[c].begin(), coupling_[c].end(), 0.0f);
     if (cells_[c] == 1) continue;
     const float weight = ratio[c] == 2 ? 0.5f : 1.0f;
-    std::array<int, 3> stride{1, 1, 1};
-    stride[c] = ratio[c];   // along c only the faces between aggregates count
+    std::array<int, 2> stride{1, 1};
+    if (c < 2) stride[c] = ratio[c];   // along c only the faces between aggregates count
     for (int i = 0; i < fine.cells_[0]; i += stride[0])
       for (int j = 0; j < fine.cells_[1]; j += stride[1]) {
-        const float* w = fine.coupling_[c].data();
-        float* sum = coupling_[c].data();
-        for (int k = 0; k < fine.cells_[2]; k += stride[2])
-          sum[at(i / ratio[0], j / ratio[1], k / ratio[2])] += weight * w[fine.at(i, j, k)];
+        const float *even = &fine.coupling_[c][fine.at(i, j, 0)], *odd = &fine.coupling_[c][fine.at(i, j, 1)];
+        float* __restrict sum = coarse_row_.data();
+        if (ratio[2] == 1) join(even, odd, cells_[2], sum);
+        else
+          for (int k = 0; k < cells_[2]; ++k) sum[k] = c == 2 ? even[k] : even[k] + odd[k];
+        add_split(sum, weight, cells_[2], &coupling_[c][at(i / ratio[0], j / ratio[1], 0)],
+                  &coupling_[c][at(i / ratio[0], j / ratio[1], 1)]);
       }
   }
   finish_couplings();

@@ -1,0 +1,88 @@
+// The fluid's parts of a step: ghosts, operators, transport; and the whole step of a box without grains.
+#include <benchmark/benchmark.h>
+
+#include <random>
+
+#include "solver/coupler.hpp"
+#include "solver/fluid/boundaries.hpp"
+#include "solver/fluid/momentum.hpp"
+#include "solver/fluid/operators.hpp"
+
+namespace bedload {
+namespace {
+
+/// A channel of 1 mm by 1 mm by 0.25 mm cells; arguments: cells along x, y and z.
+StaggeredGrid channel(const benchmark::State& state) {
+  const std::array<int, 3> cells{int(state.range(0)), int(state.range(1)), int(state.range(2))};
+  return {cells, {1e-3, 1e-3, 0.25e-3}, {Side::periodic, Side::periodic, Side::wall}, Top::lid};
+}
+
+FaceFields random_velocity(const StaggeredGrid& g) {
+  FaceFields u(g);
+  std::mt19937 random(3);
+  for (int c = 0; c < 3; ++c)
+    for (std::size_t n = 0; n < g.padded_size(); ++n) u.component(c)[n] = 1e-3 * (double(random()) / random.max() - 0.5);
+  fill_velocity_ghosts(g, u, 0);
+  return u;
+}
+
+void report_cells(benchmark::State& state, const StaggeredGrid& g) {
+  state.counters["ns_per_cell"] = benchmark::Counter(
+      double(g.cell_count()) * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void velocity_ghosts(benchmark::State& state) {
+  const StaggeredGrid g = channel(state);
+  FaceFields u = random_velocity(g);
+  for (auto _ : state) fill_velocity_ghosts(g, u, 1e-3);
+  report_cells(state, g);
+}
+
+void momentum_transport(benchmark::State& state) {
+  const StaggeredGrid g = channel(state);
+  const FaceFields flux = random_velocity(g), one(g, 1);
+  FaceFields u = flux;
+  TransportScratch scratch;
+  for (auto _ : state) transport(g, flux, one, one, 1e-12, u, scratch);
+  report_cells(state, g);
+}
+
+void gradient_divergence_laplacian(benchmark::State& state) {
+  const StaggeredGrid g = channel(state);
+  const FaceFields u = random_velocity(g);
+  FaceFields lap(g), grad(g);
+  Field<Centre> div(g);
+  for (auto _ : state) {
+    laplacian(g, u, lap);
+    divergence(g, u, div);
+    gradient(g, div, grad);
+  }
+  report_cells(state, g);
+}
+
+void step_without_grains(benchmark::State& state) {
+  Scene scene;
+  scene.grid = channel(state);
+  scene.bed.length = scene.grid.length(), scene.bed.sides = scene.grid.sides;
+  scene.bed.fluid = {1000, 1e-5};
+  scene.bed.dem_step = 1e-4;
+  State flow;
+  flow.fluid = FluidState(scene.grid);
+  flow.fluid.velocity = random_velocity(scene.grid);
+  flow.search.phase = Search::holding;
+  flow.search.lid_speed = 0.01;
+  Coupler coupler(scene);
+  for (auto _ : state) coupler.step(flow, 1e-4);
+  report_cells(state, scene.grid);
+}
+
+void boxes(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"nx", "ny", "nz"})->Args({10, 6, 26})->Args({32, 32, 40})->Args({64, 64, 80})->Unit(benchmark::kMicrosecond);
+}
+BENCHMARK(velocity_ghosts)->Apply(boxes);
+BENCHMARK(momentum_transport)->Apply(boxes);
+BENCHMARK(gradient_divergence_laplacian)->Apply(boxes);
+BENCHMARK(step_without_grains)->Apply(boxes);
+
+}  // namespace
+}  // namespace bedload
