@@ -1,0 +1,39 @@
+// The commands of bedload: options as structs, each command a function that returns the exit code.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bedload {
+
+enum class Form { table, csv, json };   // how results are printed
+
+struct StudyOptions {
+  std::string study;                 // study file or result directory
+  std::optional<std::string> out;    // result directory instead of the one beside the file
+  Form form = Form::table;
+  std::vector<std::string> cases;    // id prefixes, labels, globs
+};
+
+struct RunOptionsOfCommand {
+  StudyOptions study;
+  std::optional<int> cores;
+  bool prepare = false, rescan = false, recompute = false, replace = false, quiet = false;
+};
+
+int new_command(const std::string& name);
+int plan_command(const StudyOptions&);
+int explain_command(const StudyOptions&);
+int run_command(const RunOptionsOfCommand&);
+int case_command(const std::string& directory, const std::optional<std::string>& until);
+int stop_command(const StudyOptions&);
+int retry_command(const StudyOptions&);
+int status_command(const StudyOptions&, bool watch);
+int curve_command(const StudyOptions&);
+int query_command(const StudyOptions&, const std::string& sql);
+int report_command(const StudyOptions&);
+int inspect_command(const std::string& checkpoint, bool digest, bool verify, Form);
+
+}  // namespace bedload

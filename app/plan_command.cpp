@@ -1,0 +1,147 @@
+// `bedload plan` and `bedload explain`: what would run, at which cost, with which models, and why.
+#include <algorithm>
+#include <map>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.hpp"
+#include "app/tables.hpp"
+#include "base/log.hpp"
+#include "scheduler/progress.hpp"
+#include "solver/required_models.hpp"
+#include "studies/case_entry.hpp"
+#include "studies/case_identity.hpp"
+#include "studies/database_values.hpp"
+#include "studies/explain.hpp"
+#include "studies/plan.hpp"
+#include "studies/study_file.hpp"
+
+namespace bedload {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<CaseEntry> known_cases(const fs::path& results) {
+  if (!fs::exists(database_file(results))) return {};
+  return read_cases(Database(database_file(results), Database::Mode::query));
+}
+
+Rows case_rows(const Plan& plan) {
+  Rows rows{{"case", "label", "plan", "grains", "cells", "E [Pa]", "DEM step [s]", "fluid step [s]", "td [s]", "Ga", "core-hours, at most"}, {}};
+  for (const auto& c : plan.cases) {
+    const auto& scene = c.one.scene;
+    const auto n = numbers_of(scene);
+    rows.rows.push_back({short_id(c.one.id), c.one.label, std::string(word(c.fate)) + (c.done ? ", done" : ""),
+                         static_cast<std::int64_t>(scene.bed.source.count), static_cast<std::int64_t>(scene.grid.cell_count()),
+                         scene.bed.grains.young_modulus, scene.bed.dem_step, scene.steps.fluid_interval, real_or_null(n.grain_time),
+                         real_or_null(n.galileo), c.done ? 0.0 : predicted_cost(scene).core_seconds / 3600});
+  }
+  for (const auto& entry : plan.dropped)
+    rows.rows.push_back({short_id(entry.id), entry.label, std::string("dropped: not in the study file any more"), {}, {}, {}, {}, {}, {}, {}, 0.0});
+  return rows;
+}
+
+/// Scenes that differ only in numbers decide alike: one table of models for all cases whose decisions agree.
+void print_models(const Plan& plan) {
+  std::map<std::string, std::vector<const Case*>> groups;
+  for (const auto& c : plan.cases) {
+    std::string decisions;
+    for (const auto& m : required_models(c.one.scene)) decisions += fmt::format("{} {} {};", m.term, m.on, m.wanted);
+    groups[decisions].push_back(&c.one);
+  }
+  for (const auto& [decisions, cases] : groups) {
+    fmt::print("\nModels of {}{}:\n{}", cases.front()->label, cases.size() > 1 ? fmt::format(" and {} more", cases.size() - 1) : "",
+               printed(scene_models(cases.front()->scene), Form::table));
+    fmt::print("\n{}", printed(scene_numbers(cases.front()->scene), Form::table));
+  }
+}
+
+void print_warnings(const Plan& plan) {
+  std::map<std::string, std::string> said;   // warning -> first case
+  for (const auto& c : plan.cases)
+    for (const auto& warning : warnings_of(c.one.scene)) said.emplace(warning, c.one.label);
+  for (const auto& [warning, label] : said) fmt::print("\nwarning: {}: {}\n", label, warning);
+}
+
+void print_summary(const Study& study, const Plan& plan, const fs::path& results, int cores) {
+  const auto count = [&](Fate fate) { return std::ranges::count(plan.cases, fate, &PlannedCase::fate); };
+  double core_seconds = 0, bytes = 0;
+  for (const auto& c : plan.cases) {
+    if (!c.done) core_seconds += predicted_cost(c.one.scene).core_seconds;
+    bytes += predicted_cost(c.one.scene).bytes;
+  }
+  const auto done = std::ranges::count(plan.cases, true, &PlannedCase::done);
+  fmt::print("{}: {} cases ({} new, {} kept, {} extended; {} done), {} dropped, {} beds; results in {}\n", study.name, plan.cases.size(),
+             count(Fate::fresh), count(Fate::kept), count(Fate::extended), done, plan.dropped.size(), plan.beds.size(), results.string());
+  fmt::print("at most {:.3g} core-hours (a ramp ends two steps after onset), {} on {} cores; {:.1f} MB on disk\n\n", core_seconds / 3600,
+             duration_text(core_seconds / std::max<double>(1, std::min<double>(cores, static_cast<double>(plan.cases.size())))), cores, bytes / 1e6);
+}
+
+/// The case in the study file as it stands, or one that left it.
+CaseDirectory inputs_of(const CaseEntry& entry, const std::vector<Case>& cases, const fs::path& results) {
+  for (const auto& one : cases)
+    if (one.id == entry.id) return {one.label, one.inputs, one.scene, {}};
+  return read_case_directory(results / entry.directory);
+}
+
+void explain_one(const CaseEntry& entry, const std::vector<Case>& cases, const fs::path& results) {
+  const auto one = inputs_of(entry, cases, results);
+  fmt::print("{}  {}  ({})\n", entry.label, short_id(entry.id), (results / entry.directory).string());
+  for (const auto& line : story_of(entry, results / entry.directory)) fmt::print("  {}\n", line);
+  fmt::print("\n{}\n{}", printed(scene_models(one.scene), Form::table), printed(scene_numbers(one.scene), Form::table));
+  for (const auto& warning : warnings_of(one.scene)) fmt::print("\nwarning: {}\n", warning);
+}
+
+void explain_as_json(const CaseEntry& entry, const std::vector<Case>& cases, const fs::path& results) {
+  const auto one = inputs_of(entry, cases, results);
+  const nlohmann::ordered_json json = {{"case", entry.id},
+                                       {"label", entry.label},
+                                       {"story", story_of(entry, results / entry.directory)},
+                                       {"models", nlohmann::ordered_json::parse(printed(scene_models(one.scene), Form::json))},
+                                       {"numbers", nlohmann::ordered_json::parse(printed(scene_numbers(one.scene), Form::json))},
+                                       {"warnings", warnings_of(one.scene)}};
+  fmt::print("{}\n", json.dump(2));
+}
+
+/// The cases of the study file and those that left it.
+std::vector<CaseEntry> all_entries(const std::vector<Case>& cases, const std::vector<CaseEntry>& known) {
+  std::vector<CaseEntry> entries;
+  for (const auto& one : cases) entries.push_back(case_entry(one));
+  for (const auto& entry : known) {
+    const bool there = std::ranges::any_of(entries, [&](const CaseEntry& e) { return e.id == entry.id; });
+    if (!there && !entry.is_bed) entries.push_back(entry);
+  }
+  return entries;
+}
+
+}  // namespace
+
+int plan_command(const StudyOptions& options) {
+  const auto place = find_study(options.study, options.out);
+  const auto study = read_study(place.file);
+  const auto plan = make_plan(unfold(study), known_cases(place.directory), place.directory);
+  if (options.form != Form::table) {
+    fmt::print("{}", printed(case_rows(plan), options.form));
+    return 0;
+  }
+  const int cores = study.run.cores > 0 ? study.run.cores : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  print_summary(study, plan, place.directory, cores);
+  fmt::print("{}", printed(case_rows(plan), Form::table));
+  print_models(plan);
+  print_warnings(plan);
+  return 0;
+}
+
+int explain_command(const StudyOptions& options) {
+  const auto place = find_study(options.study, options.out);
+  const auto cases = unfold(read_study(place.file));
+  for (const auto& word : options.cases)
+    for (const auto& entry : matching_cases(all_entries(cases, known_cases(place.directory)), word))
+      (options.form == Form::json ? explain_as_json : explain_one)(entry, cases, place.directory);
+  return 0;
+}
+
+}  // namespace bedload

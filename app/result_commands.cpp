@@ -1,0 +1,76 @@
+// `bedload curve`, `query`, `report`: results out of the database.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "app/tables.hpp"
+#include "base/durable_file.hpp"
+#include "base/log.hpp"
+#include "checkpoint/checkpoint_series.hpp"
+#include "scheduler/attempt.hpp"
+#include "studies/case_file.hpp"
+#include "studies/report.hpp"
+#include "studies/study_directory.hpp"
+#include "studies/threshold_curve.hpp"
+
+namespace bedload {
+
+namespace {
+
+constexpr std::size_t most_pictures = 4;
+
+BedView view_of(const CaseEntry& entry, const CaseDirectory& one, State state) {
+  const auto& bed = one.scene.bed;
+  const double reduced_gravity = (bed.grains.density / bed.fluid.density - 1) * norm(bed.gravity);
+  return {.label = entry.label,
+          .moment = fmt::format("after hold {}, theta = {:.3g}", state.record.holds.hold.size(), state.search.shields),
+          .grains = std::move(state.grains),
+          .length = bed.length,
+          .diameter = bed.grains.diameter,
+          .speed_scale = std::sqrt(std::max(0.0, reduced_gravity) * bed.grains.diameter)};
+}
+
+/// The first cases that have a checkpoint, as they stand in it.
+std::vector<BedView> views(const std::vector<CaseEntry>& cases, const std::filesystem::path& results) {
+  std::vector<BedView> made;
+  for (const auto& entry : cases) {
+    if (entry.is_bed || !entry.in_study || made.size() >= most_pictures) continue;
+    const auto directory = results / entry.directory;
+    if (!std::filesystem::exists(directory / "case.toml")) continue;
+    auto state = CheckpointSeries(directory, 2, [](const std::string& line) { log_warning(line); }).newest();
+    if (state && state->grains.size() > 0) made.push_back(view_of(entry, read_case_directory(directory), std::move(*state)));
+  }
+  return made;
+}
+
+}  // namespace
+
+int curve_command(const StudyOptions& options) {
+  const auto place = find_study(options.study, options.out);
+  const auto curve = threshold_curve(open_results(place));
+  fmt::print("{}", options.form == Form::csv ? curve_as_csv(curve) : options.form == Form::json ? curve_as_json(curve) : curve_as_table(curve));
+  return 0;
+}
+
+int query_command(const StudyOptions& options, const std::string& sql) {
+  const auto place = find_study(options.study, options.out);
+  fmt::print("{}", printed(open_results(place).query(sql), options.form));
+  return 0;
+}
+
+int report_command(const StudyOptions& options) {
+  const auto place = find_study(options.study, options.out);
+  const auto database = open_results(place);
+  const auto file = place.directory / "report.html";
+  const ReportRequest request{.study = place.directory.filename().string(),
+                              .command = fmt::format("bedload run {}", place.file.filename().string()),
+                              .written = utc_now(),
+                              .beds = views(read_cases(database), place.directory)};
+  publish(file, report_html(database, request));
+  fmt::print("{}\n", file.string());
+  return 0;
+}
+
+}  // namespace bedload

@@ -1,0 +1,107 @@
+// `bedload run`, `case`, `stop`, `retry`: what starts and ends workers.
+#include <unistd.h>
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "base/units.hpp"
+#include "scheduler/attempt.hpp"
+#include "scheduler/request.hpp"
+#include "studies/case_runner.hpp"
+#include "studies/run_study.hpp"
+
+namespace bedload {
+
+namespace {
+
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+void to_stderr(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+class Silence : public ProgressSink {
+  void event(const std::string&) override {}
+  void update(const Progress&) override {}
+};
+
+std::vector<CaseEntry> named_cases(const StudyOptions& options, const StudyPlace& place) {
+  const auto known = read_cases(open_results(place));
+  std::vector<CaseEntry> cases;
+  const auto words = options.cases.empty() ? std::vector<std::string>{"*"} : options.cases;
+  for (const auto& word : words)
+    for (auto& entry : matching_cases(known, word)) cases.push_back(std::move(entry));
+  std::erase_if(cases, [](const CaseEntry& entry) { return !entry.in_study; });
+  return cases;
+}
+
+}  // namespace
+
+int run_command(const RunOptionsOfCommand& options) {
+  const auto place = find_study(options.study.study, options.study.out);
+  Silence silence;
+  ProgressPrinter printer({.terminal = isatty(2) == 1, .colour = colour_wanted(2)}, to_stderr, seconds);
+  const double began = seconds();
+  const int code = run_study({.place = place,
+                              .cores = options.cores,
+                              .only = options.study.cases,
+                              .prepare = options.prepare,
+                              .rescan = options.rescan,
+                              .recompute = options.recompute,
+                              .replace = options.replace,
+                              .sink = options.quiet ? static_cast<ProgressSink*>(&silence) : &printer});
+  if (options.prepare) return code;
+  log_note(fmt::format("wall time {}", duration_text(seconds() - began)));
+  if (code == 75) log_note(fmt::format("stopped with work left; go on with: bedload run {}", place.name));
+  if (code == 0) log_note(fmt::format("bedload curve {} shows the thresholds", place.name));
+  if (code == 1) log_note(fmt::format("bedload explain {} CASE says why a case failed", place.name));
+  return code;
+}
+
+int case_command(const std::string& directory, const std::optional<std::string>& until) {
+  RunCaseRequest request{.directory = directory, .until = {}, .report = [](const std::string& line) {
+                           fmt::print("{}\n", line);
+                           std::fflush(stdout);
+                         }};
+  try {
+    if (until) request.until = read_quantity(*until, dimension::time);
+  } catch (const UnitError& problem) {
+    throw Error(ErrorKind::usage, fmt::format("--until: {}", problem.what()), problem.hint);
+  }
+  return run_case(request);
+}
+
+/// Leaves a word in the case directories: the workers read it at their next heartbeat.
+int stop_command(const StudyOptions& options) {
+  const auto place = find_study(options.study, options.out);
+  int asked = 0;
+  for (const auto& entry : named_cases(options, place)) {
+    if (entry.state == CaseState::done || entry.state == CaseState::failed) continue;
+    write_request(place.directory / entry.directory, Request::stop);
+    ++asked;
+  }
+  log_note(fmt::format("{} cases are asked to write a checkpoint and stop; the next `bedload run` goes on", asked));
+  return 0;
+}
+
+/// An attempt that says so stands between the failure and what comes next.
+int retry_command(const StudyOptions& options) {
+  const auto place = find_study(options.study, options.out);
+  int again = 0;
+  for (const auto& entry : named_cases(options, place)) {
+    const auto directory = place.directory / entry.directory;
+    if (read_request(directory) == Request::hold) clear_request(directory);
+    if (entry.state != CaseState::failed) continue;
+    close_attempt(directory, open_attempt(directory), Cause::stopped, "retry asked for");
+    ++again;
+  }
+  log_note(fmt::format("{} failed cases are pending again; go on with: bedload run {}", again, place.name));
+  return 0;
+}
+
+}  // namespace bedload
