@@ -12,17 +12,13 @@ constexpr int substeps_per_interval = 50;
 constexpr double settled_energy = 1e-6;      // mean kinetic energy per grain / (W' d) [-]
 constexpr double weight_not_carried = 0.5;   // of a grain's own weight that its contacts may leave unbalanced [-]
 
-/// Submerged weight per mass [m/s2]. The box stands level while a bed is poured and is tilted afterwards, as a flume is:
-/// else a slope near the angle of repose would never come to rest.
+/// Submerged weight per mass [m/s2]. The box stands level while a bed is poured and is tilted afterwards, as a flume
+/// is: else a slope near the angle of repose would never come to rest.
 Vec3 settling_push(const BedScene& scene, double density) {
   return {0, 0, (1 - scene.fluid.density / density) * scene.gravity.z};
 }
 
-double kinetic_energy(const Grains& grains, std::size_t i, double mass) {
-  return 0.5 * mass * norm2(grains.velocity[i]) + 0.5 * sphere_inertia(mass, grains.diameter[i]) * norm2(grains.spin[i]);
-}
-
-}  // namespace
+}   // namespace
 
 struct BedPacking::Parts {
   explicit Parts(const BedScene& scene_) : scene(scene_), dynamics(scene_) {}
@@ -51,8 +47,9 @@ void BedPacking::Parts::wrap(Grains& grains) const {
   for (Vec3& place : grains.position) place = box.wrapped(place);
 }
 
-// Grains that have just been let go are as slow as settled ones, and so are fine ones that sink at their terminal speed:
-// a settled grain is one whose contacts carry its weight.
+// Grains that have just been let go are as slow as settled ones, and so are fine ones that sink at their terminal
+// speed: a settled grain is one whose contacts carry its weight. Energy is that of translation: nothing slows a grain
+// that spins about the normal of its only contact.
 BedPacking::Progress BedPacking::Parts::judge(const Grains& grains) const {
   double energy = 0, scale = 0;
   bool carried = true;
@@ -60,7 +57,7 @@ BedPacking::Progress BedPacking::Parts::judge(const Grains& grains) const {
     if (grains.fixed[i]) continue;
     const double mass = grains.density[i] * sphere_volume(grains.diameter[i]);
     const Vec3 weight = mass * push[i];
-    energy += kinetic_energy(grains, i, mass);
+    energy += 0.5 * mass * norm2(grains.velocity[i]);
     scale += norm(weight) * grains.diameter[i];
     carried = carried && norm(grains.mean_contact_force[i] + weight) <= weight_not_carried * norm(weight);
   }
@@ -73,7 +70,8 @@ BedPacking::~BedPacking() = default;
 
 BedPacking::Progress BedPacking::advance(Grains& grains, ContactHistory& contacts) {
   parts_->set_forces(grains);
-  parts_->dynamics.advance(grains, contacts, parts_->push, parts_->relaxation, parts_->scene.dem_step, substeps_per_interval, 0);
+  parts_->dynamics.advance(grains, contacts, parts_->push, parts_->relaxation, parts_->scene.dem_step,
+                           substeps_per_interval, 0);
   parts_->wrap(grains);
   return parts_->judge(grains);
 }
@@ -84,4 +82,4 @@ bool needs_settling(const BedScene& scene) {
   return loose && scene.source.count > 0 && has_floor && settling_push(scene, scene.grains.density).z != 0;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -10,7 +10,8 @@
 
 namespace bedload {
 
-/// The grains before settling. Refuses (study_invalid) grains that do not fit the box, overlap in the table, share a place.
+/// The grains before settling. Refuses (study_invalid) grains that do not fit the box, overlap in the table, or share a
+/// place.
 Grains place_grains(const BedScene&);
 
 /// True when the source is settled by BedPacking (poured, lattice); a table's grains are left as they are.
@@ -23,8 +24,8 @@ class BedPacking {
   explicit BedPacking(const BedScene&);
   ~BedPacking();
   struct Progress {
-    double dt;               // advanced [s]
-    double energy;           // mean kinetic energy per grain / (W' d)
+    double dt;       // advanced [s]
+    double energy;   // mean kinetic energy per grain / (W' d)
     bool settled;
   };
   /// One interval of some tens of sub-steps; wraps positions into the box.
@@ -35,8 +36,8 @@ class BedPacking {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Gives ids in spatial order (by x-slab of one diameter, then y, then z), contacts with them: makes order of id = order of memory =
-/// (nearly) order in space. Deterministic in its input.
+/// Gives ids in spatial order (by x-slab of one diameter, then y-slab, then z), contacts with them: makes order of id =
+/// order of memory = (nearly) order in space. Deterministic in its input.
 void renumber_in_space(const BedScene&, Grains&, ContactHistory&);
 
 /// Grains that rest on each other in a settled bed of scene.source.count grains, at least 1 [-].
@@ -46,4 +47,4 @@ double bed_layers(const BedScene&);
 /// gravity and the grains' diameter, density and Poisson's ratio.
 double automatic_young_modulus(const BedScene&, double layers);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -16,22 +16,22 @@ struct FluidProperties {
 };
 
 struct GrainProperties {
-  double diameter = 0;           // mean [m]
-  double density = 0;            // [kg/m3]
-  double spread = 0;             // standard deviation / mean of diameters, normal, cut at 2 deviations [-]
-  double friction = 0;           // Coulomb [-], grain-grain and grain-wall
-  double restitution = 0;        // normal, of a dry collision [-]
-  double poisson = 0;            // [-]
-  double young_modulus = 0;      // [Pa], resolved ("auto" is computed before a Scene exists)
+  double diameter = 0;        // mean [m]
+  double density = 0;         // [kg/m3]
+  double spread = 0;          // standard deviation / mean of diameters, normal, cut at 2 deviations [-]
+  double friction = 0;        // Coulomb [-], grain-grain and grain-wall
+  double restitution = 0;     // normal, of a dry collision [-]
+  double poisson = 0;         // [-]
+  double young_modulus = 0;   // [Pa], resolved ("auto" is computed before a Scene exists)
 };
 
 /// Where the grains come from.
 struct BedSource {
   enum class Kind { poured, lattice, file, none };
   Kind kind = Kind::none;
-  std::uint64_t count = 0;       // grains; with kind file: rows
-  std::string csv;               // kind file: the bytes of the table x,y,z,diameter,density,fixed
-  std::uint64_t seed = 1;        // packing
+  std::uint64_t count = 0;   // grains; with kind file: rows
+  std::string csv;           // kind file: the bytes of the table x,y,z,diameter,density,fixed
+  std::uint64_t seed = 1;    // packing
 };
 
 /// The part that packing a bed may see.
@@ -39,11 +39,11 @@ struct BedScene {
   FluidProperties fluid;
   GrainProperties grains;
   BedSource source;
-  Vec3 length;                   // box [m]
+  Vec3 length;   // box [m]
   std::array<Side, 3> sides{};
   Top top = Top::lid;
-  Vec3 gravity;                  // [m/s2], tilted by the slope
-  double dem_step = 0;           // [s]
+  Vec3 gravity;          // [m/s2], tilted by the slope
+  double dem_step = 0;   // [s]
 };
 
-}  // namespace bedload
+}   // namespace bedload

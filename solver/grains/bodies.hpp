@@ -21,4 +21,4 @@ struct Load {
   Vec3 torque;   // [N m]
 };
 
-}  // namespace bedload
+}   // namespace bedload

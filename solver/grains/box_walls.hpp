@@ -37,10 +37,10 @@ struct PeriodicBox {
 struct FlatWall {
   Wall name;
   int axis;
-  double place;        // [m]
-  double outward;      // +1 or -1: from the grains to the wall along the axis
-  bool rough;          // has the grains' friction; else none
-  bool moves;          // with the lid's speed along x
+  double place;     // [m]
+  double outward;   // +1 or -1: from the grains to the wall along the axis
+  bool rough;       // has the grains' friction; else none
+  bool moves;       // with the lid's speed along x
 
   double depth(Vec3 centre, double radius) const noexcept { return radius - outward * (place - centre[axis]); }
   Vec3 normal() const noexcept {
@@ -57,9 +57,10 @@ inline std::vector<FlatWall> walls_of(const BedScene& scene) {
     const auto low = static_cast<std::uint32_t>(Wall::x_low) + 2 * static_cast<std::uint32_t>(c);
     const bool top = c == 2;
     walls.push_back({static_cast<Wall>(low), c, 0, -1, true, false});
-    walls.push_back({static_cast<Wall>(low + 1), c, scene.length[c], 1, !top || scene.top == Top::lid, top && scene.top == Top::lid});
+    walls.push_back({static_cast<Wall>(low + 1), c, scene.length[c], 1, !top || scene.top == Top::lid,
+                     top && scene.top == Top::lid});
   }
   return walls;
 }
 
-}  // namespace bedload
+}   // namespace bedload

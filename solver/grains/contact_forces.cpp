@@ -1,4 +1,4 @@
-// Blocks of pairs: fetch both grains, apply the law to the whole block (which the compiler vectorises), add up in order.
+// Blocks of pairs: fetch both grains, apply the law to the whole block (the compiler vectorises it), add up in order.
 #include "solver/grains/contact_forces.hpp"
 
 #include <algorithm>
@@ -11,13 +11,13 @@ constexpr std::size_t block_size = 64;   // its arrays stay in the first-level c
 /// Relative motion of a block of pairs, and what the law makes of it: structure of arrays.
 struct alignas(64) PairBlock {
   using Lane = double[block_size];
-  Lane dx, dy, dz;         // from the lower to the higher grain [m]
-  Lane vx, vy, vz;         // velocity of the lower relative to the higher, without spin [m/s]
-  Lane radius_a, radius_b; // [m]
-  Lane ax, ay, az;         // spin of the lower [rad/s]
-  Lane bx, by, bz;         // of the higher
-  Lane fx, fy, fz;         // force on the lower [N]
-  Lane tx, ty, tz;         // normal x force [N]: torque per lever arm, the same on both
+  Lane dx, dy, dz;           // from the lower to the higher grain [m]
+  Lane vx, vy, vz;           // velocity of the lower relative to the higher, without spin [m/s]
+  Lane radius_a, radius_b;   // [m]
+  Lane ax, ay, az;           // spin of the lower [rad/s]
+  Lane bx, by, bz;           // of the higher
+  Lane fx, fy, fz;           // force on the lower [N]
+  Lane tx, ty, tz;           // normal x force [N]: torque per lever arm, the same on both
 };
 
 void fetch(std::span<const Body> bodies, const PairContacts& pairs, std::size_t first, std::size_t count,
@@ -59,21 +59,26 @@ void respond(const HertzMindlin& law, const PeriodicBox& box, double dt, const P
   }
 }
 
+// The lower grain of a row of pairs is the same: its sum stays in registers until the row ends.
 void add_up(const PairContacts& pairs, std::size_t first, std::size_t count, const PairBlock& b,
             std::span<Load> loads) noexcept {
-  for (std::size_t k = 0; k < count; ++k) {
-    Load& i = loads[pairs.ids.lower[first + k]];
-    Load& j = loads[pairs.ids.higher[first + k]];
-    const Vec3 force{b.fx[k], b.fy[k], b.fz[k]}, turn{b.tx[k], b.ty[k], b.tz[k]};
-    const double half = 0.5 * pairs.depth[first + k];
-    i.force += force;
-    i.torque += (b.radius_a[k] - half) * turn;
-    j.force -= force;
-    j.torque += (b.radius_b[k] - half) * turn;
+  for (std::size_t k = 0; k < count;) {
+    const std::uint32_t lower = pairs.ids.lower[first + k];
+    Load sum = loads[lower];
+    for (; k < count && pairs.ids.lower[first + k] == lower; ++k) {
+      const Vec3 force{b.fx[k], b.fy[k], b.fz[k]}, turn{b.tx[k], b.ty[k], b.tz[k]};
+      const double half = 0.5 * pairs.depth[first + k];
+      sum.force += force;
+      sum.torque += (b.radius_a[k] - half) * turn;
+      Load& other = loads[pairs.ids.higher[first + k]];
+      other.force -= force;
+      other.torque += (b.radius_b[k] - half) * turn;
+    }
+    loads[lower] = sum;
   }
 }
 
-}  // namespace
+}   // namespace
 
 void add_pair_forces(const HertzMindlin& law, const PeriodicBox& box, std::span<const Body> bodies, double dt,
                      PairContacts& pairs, std::span<Load> loads) noexcept {
@@ -111,4 +116,4 @@ Vec3 add_wall_forces(const HertzMindlin& rough, const HertzMindlin& smooth, std:
   return on_walls;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -18,4 +18,4 @@ Vec3 add_wall_forces(const HertzMindlin& rough, const HertzMindlin& smooth, std:
                      std::span<const Body>, double dt, double lid_speed, std::span<WallContact>,
                      std::span<Load> loads) noexcept;
 
-}  // namespace bedload
+}   // namespace bedload

@@ -20,4 +20,4 @@ struct ContactHistory {
   bool operator==(const ContactHistory&) const = default;
 };
 
-}  // namespace bedload
+}   // namespace bedload

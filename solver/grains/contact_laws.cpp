@@ -7,7 +7,8 @@ HertzMindlin::HertzMindlin(const GrainProperties& grains)
     : normal_stiffness_(grains.young_modulus / (1 - grains.poisson * grains.poisson)),
       shear_ratio_(2 * (1 - grains.poisson) / (2 - grains.poisson)),
       root_shear_ratio_(std::sqrt(shear_ratio_)),
-      damping_(damping_of_restitution(grains.restitution > lowest_restitution ? grains.restitution : lowest_restitution)),
+      damping_(
+          damping_of_restitution(grains.restitution > lowest_restitution ? grains.restitution : lowest_restitution)),
       friction_(grains.friction) {}
 
 HertzMindlin HertzMindlin::without_friction() const {
@@ -17,7 +18,7 @@ HertzMindlin HertzMindlin::without_friction() const {
 }
 
 // The collision in units in which m* = 4/3 Y* sqrt(R*) = approach speed = 1: x'' = -max(0, x^3/2 + c x^1/4 x') with
-// c = alpha sqrt(3/2) (G10). Runge-Kutta of fourth order; only + - * / and square roots, so every machine finds the same bits.
+// c = alpha sqrt(3/2) (G10). Runge-Kutta of fourth order; only + - * / and square roots, the same bits everywhere.
 double restitution_of_damping(double alpha) noexcept {
   const double c = alpha * std::sqrt(1.5);
   const auto acceleration = [c](double x, double v) {
@@ -49,4 +50,4 @@ double damping_of_restitution(double restitution) noexcept {
   return (low + high) / 2;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -22,7 +22,7 @@ struct ContactForce {
   Vec3 spring;   // to be handed in at the next step [m]
 };
 
-/// Hertz's normal force with damping, Mindlin's tangential spring with Coulomb's cap: docs/physics_grains.md, (G1)-(G9).
+/// Hertz's normal force with damping, Mindlin's spring with Coulomb's cap: docs/physics_grains.md, (G1)-(G8).
 class HertzMindlin {
  public:
   /// Grains and walls are of one material. The damping is calibrated so that a collision rebounds with the restitution
@@ -38,14 +38,14 @@ class HertzMindlin {
   ContactForce respond(const Overlap&, Vec3 spring, double dt) const noexcept;
 
  private:
-  double normal_stiffness_;       // 2 Y* [Pa]
-  double shear_ratio_;            // S_t/S_n = 4 G*/Y* [-]
-  double root_shear_ratio_;       // its square root [-]
-  double damping_;                // alpha of gamma_n = alpha sqrt(S_n m*) [-]
-  double friction_;               // Coulomb's coefficient [-]
+  double normal_stiffness_;   // 2 Y* [Pa]
+  double shear_ratio_;        // S_t/S_n = 4 G*/Y* [-]
+  double root_shear_ratio_;   // its square root [-]
+  double damping_;            // alpha of gamma_n = alpha sqrt(S_n m*) [-]
+  double friction_;           // Coulomb's coefficient [-]
 };
 
-/// Restitution of a Hertz collision whose damping is alpha sqrt(S_n m*) and whose force never pulls: no speed in it [-].
+/// Restitution of a Hertz collision damped by alpha sqrt(S_n m*) and never pulling, whatever its speed [-].
 double restitution_of_damping(double alpha) noexcept;
 
 /// Its inverse, for 0 < restitution <= 1 [-].
@@ -57,29 +57,25 @@ inline ContactForce HertzMindlin::respond(const Overlap& o, Vec3 spring, double 
   const double closing = dot(o.velocity, o.normal);
   const Vec3 sliding = o.velocity - closing * o.normal;
 
-  // The radius of the contact, now and a step ago (symplectic Euler: x^n = x^{n-1} + dt v^n, so nothing need be remembered).
-  const double depth_before = depth - closing * dt > 0 ? depth - closing * dt : 0;
-  const double a = o.root_radius * std::sqrt(depth);                   // (G1)
-  const double a_before = o.root_radius * std::sqrt(depth_before);
-  const double stiffness = normal_stiffness_ * a;                      // S_n, (G2)
-  const double damping = damping_ * std::sqrt(stiffness * o.mass);     // gamma_n, (G4)
-
+  const double a = o.root_radius * std::sqrt(depth);                 // radius of the contact, (G1)
+  const double stiffness = normal_stiffness_ * a;                    // S_n, (G2)
+  const double damping = damping_ * std::sqrt(stiffness * o.mass);   // gamma_n, (G4)
   const double push = stiffness * depth * (2.0 / 3) + damping * closing;
-  const double normal_force = push > 0 ? push : 0;                     // (G3), never pulls
-  const double cap = friction_ * normal_force;
+  const double normal_force = push > 0 ? push : 0;   // (G3), never pulls
 
-  // A growing contact keeps its tangential force, a shrinking one lets it fall with its radius: no energy is made. (G6)
-  const double kept = a_before < a ? a_before / a : 1;
+  // A growing contact keeps its tangential force, a shrinking one lets it fall with its radius: no energy is made. The
+  // depth a step ago follows from the velocity (symplectic Euler: x^n = x^{n-1} + dt v^n): nothing to remember.
+  const double before = depth - closing * dt > 0 ? depth - closing * dt : 0;
+  const double kept = before < depth ? 2 * before / (before + depth) : 1;       // at most a_before/a, (G6)
   spring = kept * (spring - dot(spring, o.normal) * o.normal) + dt * sliding;   // (G5)
-  const double shear = shear_ratio_ * stiffness;                       // S_t
-  const double pull = shear * norm(spring);
-  spring *= pull > cap ? cap / pull : 1;                               // (G7)
 
-  Vec3 tangential = shear * spring + (root_shear_ratio_ * damping) * sliding;
-  const double drag = norm(tangential);
-  tangential *= drag > cap ? cap / drag : 1;                           // (G8)
-  const double hold = touching ? 1 : 0;
-  return {-(normal_force * o.normal + tangential), hold * spring};
+  const double shear = shear_ratio_ * stiffness;                                // S_t
+  Vec3 tangential = shear * spring + (root_shear_ratio_ * damping) * sliding;   // (G7)
+  const double pull = norm(tangential), cap = friction_ * normal_force;
+  const double scale = pull > cap ? cap / pull : 1;   // the spring slides with its contact, (G8)
+  tangential *= scale;
+  spring *= touching ? scale : 0;
+  return {-(normal_force * o.normal + tangential), spring};
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -10,11 +10,10 @@
 
 namespace bedload {
 
-/// Scratch: nothing here outlives a call in meaning. The springs come from and return to the ContactHistory of the caller;
+/// Scratch: nothing here outlives a call in meaning. The springs come from and return to the caller's ContactHistory;
 /// the list is used again only if it still covers the grains that are handed in.
 struct GrainDynamics::Workspace {
-  explicit Workspace(const BedScene& scene)
-      : rough(scene.grains), smooth(rough.without_friction()), list(scene) {}
+  explicit Workspace(const BedScene& scene) : rough(scene.grains), smooth(rough.without_friction()), list(scene) {}
 
   void take(const Grains&, std::span<const double> relaxation, double dt);
   void give(Grains&, int substeps) const;
@@ -36,8 +35,9 @@ void GrainDynamics::Workspace::take(const Grains& grains, std::span<const double
   for (std::size_t i = 0; i < n; ++i) {
     const double mass = grains.density[i] * sphere_volume(grains.diameter[i]);
     const bool fixed = grains.fixed[i] != 0;
-    bodies[i] = {grains.position[i], 0.5 * grains.diameter[i], grains.velocity[i], fixed ? 0 : 1 / mass,
-                 grains.spin[i], fixed ? 0 : 1 / sphere_inertia(mass, grains.diameter[i])};
+    bodies[i] = {grains.position[i], 0.5 * grains.diameter[i],
+                 grains.velocity[i], fixed ? 0 : 1 / mass,
+                 grains.spin[i],     fixed ? 0 : 1 / sphere_inertia(mass, grains.diameter[i])};
     damp[i] = relaxation.empty() ? 1 : 1 / (1 + dt * relaxation[i]);
   }
 }
@@ -53,11 +53,13 @@ void GrainDynamics::Workspace::give(Grains& grains, int substeps) const {
 }
 
 void GrainDynamics::Workspace::prepare_list(ContactHistory& history, double dt, bool list_holds_springs) {
-  if (list.covers(bodies)) {
-    if (!list_holds_springs) list.load(history);
+  if (list_holds_springs) {
+    if (list.still_covers(bodies)) return;
+    list.save(history);
+  } else if (list.covers(bodies)) {
+    list.load(history);
     return;
   }
-  if (list_holds_springs) list.save(history);
   list.rebuild(bodies, dt, history);
 }
 
@@ -84,7 +86,8 @@ GrainHealth GrainDynamics::advance(Grains& grains, ContactHistory& contacts, std
     w.prepare_list(contacts, dt, s > 0);
     std::ranges::fill(w.loads, Load{});
     add_pair_forces(w.rough, w.list.box(), w.bodies, dt, w.list.pairs, w.loads);
-    health.force_on_walls += add_wall_forces(w.rough, w.smooth, w.list.walls(), w.bodies, dt, lid_speed, w.list.wall_contacts, w.loads);
+    health.force_on_walls +=
+        add_wall_forces(w.rough, w.smooth, w.list.walls(), w.bodies, dt, lid_speed, w.list.wall_contacts, w.loads);
     for (std::size_t i = 0; i < w.loads.size(); ++i) w.sum_of_forces[i] += w.loads[i].force;
     move_bodies(w.bodies, w.loads, push, w.damp, dt);
   }
@@ -102,9 +105,9 @@ double rayleigh_time(double diameter, double density, double young_modulus, doub
 }
 
 double contact_time(double diameter, double density, double young_modulus, double poisson, double speed) {
-  const double mass = density * sphere_volume(diameter) / 2;                        // m* of two equal grains
-  const double modulus = young_modulus / (2 * (1 - poisson * poisson));             // Y*
+  const double mass = density * sphere_volume(diameter) / 2;              // m* of two equal grains
+  const double modulus = young_modulus / (2 * (1 - poisson * poisson));   // Y*
   return 2.87 * std::pow(mass * mass / (diameter / 4 * modulus * modulus * speed), 0.2);
 }
 
-}  // namespace bedload
+}   // namespace bedload

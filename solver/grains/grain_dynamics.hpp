@@ -11,9 +11,9 @@
 namespace bedload {
 
 struct GrainHealth {
-  double deepest_overlap = 0;    // per diameter of the smaller grain [-]
-  Vec3 force_on_walls;           // mean contact force of grains on all walls [N]
-  std::uint64_t contacts = 0;    // touching pairs at the end, walls included
+  double deepest_overlap = 0;   // per diameter of the smaller grain [-]
+  Vec3 force_on_walls;          // mean contact force of grains on all walls [N]
+  std::uint64_t contacts = 0;   // touching pairs at the end, walls included
 };
 
 /// Advances the grains by sub-steps of {contact forces at x^n, v^n; v += dt (push + F/m); x += dt v} (symplectic Euler:
@@ -44,4 +44,4 @@ double rayleigh_time(double diameter, double density, double young_modulus, doub
 /// Duration of a Hertz collision of two equal grains at relative speed v, 2.87 (m*^2/(R* Y*^2 v))^(1/5) [s].
 double contact_time(double diameter, double density, double young_modulus, double poisson, double speed);
 
-}  // namespace bedload
+}   // namespace bedload

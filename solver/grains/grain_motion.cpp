@@ -14,4 +14,4 @@ void move_bodies(std::span<Body> bodies, std::span<const Load> loads, std::span<
   }
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -12,4 +12,4 @@ namespace bedload {
 void move_bodies(std::span<Body>, std::span<const Load>, std::span<const Vec3> push, std::span<const double> damp,
                  double dt) noexcept;
 
-}  // namespace bedload
+}   // namespace bedload

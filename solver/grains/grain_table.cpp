@@ -83,18 +83,21 @@ void check_row(const BedScene& scene, const std::array<double, 6>& v, std::size_
   const auto [x, y, z, diameter, density, fixed] = v;
   if (!(diameter > 0)) complaints.add(fmt::format("bed.file: row {}: diameter = {} m is not positive", row, diameter));
   if (!(density > 0)) complaints.add(fmt::format("bed.file: row {}: density = {} kg/m3 is not positive", row, density));
-  if (fixed != 0 && fixed != 1) complaints.add(fmt::format("bed.file: row {}: fixed = {} is neither 0 nor 1", row, fixed));
+  if (fixed != 0 && fixed != 1)
+    complaints.add(fmt::format("bed.file: row {}: fixed = {} is neither 0 nor 1", row, fixed));
   const PeriodicBox box(scene);
   for (int c = 0; c < 3; ++c) {
     // A fixed grain may stand half in a wall: rough bottoms are made so.
     const double room = box.periodic(c) || fixed == 1 ? 0 : diameter * (0.5 - tolerated_overlap);
     if (v[c] < room || v[c] > box.length[c] - room)
-      complaints.add(fmt::format("bed.file: row {}: the grain at {} = {} m of diameter {} m is outside the box (0 to {} m)", row,
-                                 "xyz"[c], v[c], diameter, box.length[c]));
+      complaints.add(
+          fmt::format("bed.file: row {}: the grain at {} = {} m of diameter {} m is outside the box (0 to {} m)", row,
+                      "xyz"[c], v[c], diameter, box.length[c]));
   }
 }
 
-void check_overlaps(const BedScene& scene, const Grains& grains, const std::vector<std::size_t>& row, Complaints& complaints) {
+void check_overlaps(const BedScene& scene, const Grains& grains, const std::vector<std::size_t>& row,
+                    Complaints& complaints) {
   const PeriodicBox box(scene);
   check_periodic_sides(box, *std::ranges::max_element(grains.diameter));
   std::vector<double> radius(grains.size());
@@ -109,19 +112,21 @@ void check_overlaps(const BedScene& scene, const Grains& grains, const std::vect
     if (distance < 1e-9 * smaller)
       complaints.add(fmt::format("bed.file: rows {} and {}: two grains at one place", row[i], row[j]));
     else if (overlap > tolerated_overlap * smaller)
-      complaints.add(fmt::format("bed.file: rows {} and {}: the grains overlap by {:.3g} m, {:.3g} % of a diameter; at most {} % is accepted",
-                                 row[i], row[j], overlap, 100 * overlap / smaller, 100 * tolerated_overlap));
+      complaints.add(fmt::format(
+          "bed.file: rows {} and {}: the grains overlap by {:.3g} m, {:.3g} % of a diameter; at most {} % is accepted",
+          row[i], row[j], overlap, 100 * overlap / smaller, 100 * tolerated_overlap));
   }
 }
 
-}  // namespace
+}   // namespace
 
 Grains read_grain_table(const BedScene& scene) {
   std::string_view rest = scene.source.csv;
   Complaints complaints;
   const std::string_view found = take_until(rest, '\n');
   if (found != header)
-    throw Error(ErrorKind::study_invalid, fmt::format("bed.file: row 1: the header is \"{}\", not \"{}\"", found, header),
+    throw Error(ErrorKind::study_invalid,
+                fmt::format("bed.file: row 1: the header is \"{}\", not \"{}\"", found, header),
                 "the first line names the columns, in this order; all values are in SI units");
   Grains grains;
   std::vector<std::size_t> row_of;
@@ -145,4 +150,4 @@ Grains read_grain_table(const BedScene& scene) {
   return grains;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -19,7 +19,7 @@ bool before(std::uint32_t lower_a, std::uint32_t higher_a, std::uint32_t lower_b
   return lower_a != lower_b ? lower_a < lower_b : higher_a < higher_b;
 }
 
-}  // namespace
+}   // namespace
 
 void PairContacts::resize_to_ids() {
   for (auto* array : {&root_radius, &mass, &depth, &spring_x, &spring_y, &spring_z}) array->resize(ids.size());
@@ -27,25 +27,40 @@ void PairContacts::resize_to_ids() {
 
 NeighbourList::NeighbourList(const BedScene& scene) : box_(scene), walls_(walls_of(scene)) {}
 
-bool NeighbourList::covers(std::span<const Body> bodies) const noexcept {
-  if (reference_.size() != bodies.size()) return false;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Body &now = bodies[i], &then = reference_[i];
-    const Vec3 moved = box_.shortest(now.position - then.position);
-    const bool inside = norm2(moved) <= skin_[i] * skin_[i];
-    if (!inside || now.radius != then.radius || now.inverse_mass != then.inverse_mass) return false;
-  }
+bool NeighbourList::same_grains(std::span<const Body> bodies) const noexcept {
+  if (origin_.size() != bodies.size()) return false;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].radius != radius_[i] || bodies[i].inverse_mass != inverse_mass_[i]) return false;
   return true;
 }
 
+bool NeighbourList::covers(std::span<const Body> bodies) noexcept {
+  if (!same_grains(bodies)) return false;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Vec3 moved = box_.shortest(bodies[i].position - origin_[i].position);
+    origin_[i].position = bodies[i].position - moved;   // the image that belongs to the body
+  }
+  return still_covers(bodies);
+}
+
+bool NeighbourList::still_covers(std::span<const Body> bodies) const noexcept {
+  bool inside = true;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    inside &= norm2(bodies[i].position - origin_[i].position) <= origin_[i].skin2;
+  return inside;
+}
+
 void NeighbourList::rebuild(std::span<const Body> bodies, double dt, const ContactHistory& history) {
-  reference_.assign(bodies.begin(), bodies.end());
   const std::size_t n = bodies.size();
-  skin_.resize(n), reach_.resize(n), position_.resize(n), fixed_.resize(n);
+  origin_.resize(n), radius_.resize(n), inverse_mass_.resize(n), reach_.resize(n), position_.resize(n),
+      fixed_.resize(n);
   double largest = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    skin_[i] = skin_of(bodies[i], dt);
-    reach_[i] = bodies[i].radius + skin_[i];
+    const double skin = skin_of(bodies[i], dt);
+    origin_[i] = {bodies[i].position, skin * skin};
+    radius_[i] = bodies[i].radius;
+    inverse_mass_[i] = bodies[i].inverse_mass;
+    reach_[i] = bodies[i].radius + skin;
     position_[i] = bodies[i].position;
     fixed_[i] = bodies[i].inverse_mass == 0;
     largest = std::max(largest, 2 * bodies[i].radius);
@@ -86,7 +101,8 @@ void NeighbourList::load(const ContactHistory& history) {
     const auto lower = history.lower[h], higher = history.higher[h];
     if (higher >= static_cast<std::uint32_t>(Wall::x_low)) {
       while (touch < wall_contacts.size() &&
-             before(wall_contacts[touch].grain, static_cast<std::uint32_t>(walls_[wall_contacts[touch].wall].name), lower, higher))
+             before(wall_contacts[touch].grain, static_cast<std::uint32_t>(walls_[wall_contacts[touch].wall].name),
+                    lower, higher))
         ++touch;
       if (touch < wall_contacts.size() && wall_contacts[touch].grain == lower &&
           static_cast<std::uint32_t>(walls_[wall_contacts[touch].wall].name) == higher)
@@ -122,4 +138,4 @@ void NeighbourList::save(ContactHistory& history) const {
   walls_of_grains_below(UINT32_MAX);
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -12,13 +12,13 @@
 
 namespace bedload {
 
-/// Candidate pairs as aligned arrays, sorted by lower then higher id, so that one pass in order sums the forces on every
-/// grain in order of its partners' ids: first those below it (as their higher one), then those above.
+/// Candidate pairs as aligned arrays, sorted by lower then higher id, so that one pass in order sums the forces on
+/// every grain in order of its partners' ids: first those below it (as their higher one), then those above.
 struct PairContacts {
   PairList ids;
-  std::vector<double> root_radius;              // sqrt(R*) [m^1/2]
-  std::vector<double> mass;                     // m* [kg]
-  std::vector<double> depth;                    // at the last pass [m]; not positive: apart
+  std::vector<double> root_radius;                    // sqrt(R*) [m^1/2]
+  std::vector<double> mass;                           // m* [kg]
+  std::vector<double> depth;                          // at the last pass [m]; not positive: apart
   std::vector<double> spring_x, spring_y, spring_z;   // [m]
 
   std::size_t size() const { return ids.size(); }
@@ -28,26 +28,29 @@ struct PairContacts {
 /// Candidates for contact with walls, sorted by grain then wall.
 struct WallContact {
   std::uint32_t grain;
-  std::uint32_t wall;    // place in the list of walls
-  double root_radius;    // sqrt of the grain's radius [m^1/2]
-  double mass;           // of the grain [kg]
-  double depth;          // at the last pass [m]
-  Vec3 spring;           // [m]
+  std::uint32_t wall;   // place in the list of walls
+  double root_radius;   // sqrt of the grain's radius [m^1/2]
+  double mass;          // of the grain [kg]
+  double depth;         // at the last pass [m]
+  Vec3 spring;          // [m]
 };
 
 class NeighbourList {
  public:
   explicit NeighbourList(const BedScene&);
 
-  /// True while every pair that may touch is listed. `bodies` may have been wrapped since the list was made.
-  bool covers(std::span<const Body> bodies) const noexcept;
+  /// True if the list is of these very grains, and every pair that may touch now is in it. `bodies` may have been
+  /// wrapped since the list was made.
+  bool covers(std::span<const Body> bodies) noexcept;
+  /// The same, for grains that have only moved since `covers` or `rebuild`.
+  bool still_covers(std::span<const Body> bodies) const noexcept;
   /// Makes the list anew for these bodies, and carries `history` into it. A skin lasts about 50 steps dt.
   void rebuild(std::span<const Body> bodies, double dt, const ContactHistory& history);
   /// Hands the springs of `history` to the list. Every pair in it must be listed (it touched when it was saved).
   void load(const ContactHistory& history);
   /// What touched at the last pass.
   void save(ContactHistory& history) const;
-  void forget() { reference_.clear(); }
+  void forget() { origin_.clear(); }
 
   PairContacts pairs;
   std::vector<WallContact> wall_contacts;
@@ -60,10 +63,18 @@ class NeighbourList {
 
   PeriodicBox box_;
   std::vector<FlatWall> walls_;
-  std::vector<Body> reference_;       // when the list was made
-  std::vector<double> skin_, reach_;  // [m]
-  std::vector<Vec3> position_;
+  /// Where a grain was when the list was made, and how far it may have moved.
+  struct Origin {
+    Vec3 position;   // [m]
+    double skin2;    // square of the skin [m2]
+  };
+  bool same_grains(std::span<const Body> bodies) const noexcept;
+
+  std::vector<Origin> origin_;
+  std::vector<double> radius_, inverse_mass_;   // then
+  std::vector<Vec3> position_;                  // for the search
+  std::vector<double> reach_;                   // radius and skin [m]
   std::vector<std::uint8_t> fixed_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

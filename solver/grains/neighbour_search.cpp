@@ -89,7 +89,7 @@ class CellGrid {
   std::vector<std::uint32_t> start_, grains_;
 };
 
-}  // namespace
+}   // namespace
 
 void find_near_pairs(const PeriodicBox& box, std::span<const Vec3> position, std::span<const double> reach,
                      std::span<const std::uint8_t> fixed, PairList& pairs) {
@@ -114,11 +114,13 @@ void find_near_pairs(const PeriodicBox& box, std::span<const Vec3> position, std
 void check_periodic_sides(const PeriodicBox& box, double largest_diameter) {
   for (int c = 0; c < 3; ++c) {
     if (!box.periodic(c) || box.length[c] >= 2 * largest_diameter) continue;
-    throw Error(ErrorKind::study_invalid,
-                fmt::format("box: the periodic side along {} is {:.6g} m, less than two diameters of the largest grain ({:.6g} m)",
-                            "xyz"[c], box.length[c], largest_diameter),
-                "make the side longer, or a wall");
+    throw Error(
+        ErrorKind::study_invalid,
+        fmt::format(
+            "box: the periodic side along {} is {:.6g} m, less than two diameters of the largest grain ({:.6g} m)",
+            "xyz"[c], box.length[c], largest_diameter),
+        "make the side longer, or a wall");
   }
 }
 
-}  // namespace bedload
+}   // namespace bedload

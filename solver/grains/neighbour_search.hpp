@@ -23,4 +23,4 @@ void find_near_pairs(const PeriodicBox&, std::span<const Vec3> position, std::sp
 /// Refuses (study_invalid) a periodic side so short that a grain could touch two images of another.
 void check_periodic_sides(const PeriodicBox&, double largest_diameter);
 
-}  // namespace bedload
+}   // namespace bedload

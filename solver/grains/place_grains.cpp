@@ -21,7 +21,9 @@ struct Layers {
   Vec3 spacing;   // [m]
 };
 
-std::uint64_t places_along(double length, double pitch) { return static_cast<std::uint64_t>(length / pitch * (1 + 1e-12)); }
+std::uint64_t places_along(double length, double pitch) {
+  return static_cast<std::uint64_t>(length / pitch * (1 + 1e-12));
+}
 
 /// Layers whose places are `clearance` largest diameters apart, if the grains then fit below the top.
 std::optional<Layers> layers_with(const BedScene& scene, double largest, double clearance) {
@@ -32,7 +34,8 @@ std::optional<Layers> layers_with(const BedScene& scene, double largest, double 
   if (count > places_along(scene.length.z, pitch)) return std::nullopt;
   // Without a bottom the grains are spread over the whole height.
   const double height = scene.sides[2] == Side::periodic ? scene.length.z / static_cast<double>(count) : pitch;
-  return Layers{nx, ny, count, {scene.length.x / static_cast<double>(nx), scene.length.y / static_cast<double>(ny), height}};
+  return Layers{
+      nx, ny, count, {scene.length.x / static_cast<double>(nx), scene.length.y / static_cast<double>(ny), height}};
 }
 
 Layers layers_that_fit(const BedScene& scene, double largest) {
@@ -41,11 +44,15 @@ Layers layers_that_fit(const BedScene& scene, double largest) {
     if (!poured && clearance > 1.0) continue;
     if (const auto layers = layers_with(scene, largest, clearance)) return *layers;
   }
-  const std::uint64_t fit = places_along(scene.length.x, largest) * places_along(scene.length.y, largest) * places_along(scene.length.z, largest);
-  throw Error(ErrorKind::study_invalid,
-              fmt::format("bed: {} grains of up to {:.4g} m do not fit the box of {:.4g} x {:.4g} x {:.4g} m before they settle; "
-                          "{} do", scene.source.count, largest, scene.length.x, scene.length.y, scene.length.z, fit),
-              "raise box.height, or lower bed.count or bed.depth");
+  const std::uint64_t fit = places_along(scene.length.x, largest) * places_along(scene.length.y, largest) *
+                            places_along(scene.length.z, largest);
+  throw Error(
+      ErrorKind::study_invalid,
+      fmt::format(
+          "bed: {} grains of up to {:.4g} m do not fit the box of {:.4g} x {:.4g} x {:.4g} m before they settle; "
+          "{} do",
+          scene.source.count, largest, scene.length.x, scene.length.y, scene.length.z, fit),
+      "raise box.height, or lower bed.count or bed.depth");
 }
 
 /// Normal about the mean, drawn anew beyond two deviations.
@@ -96,7 +103,7 @@ Grains grains_in_layers(const BedScene& scene) {
   return grains;
 }
 
-}  // namespace
+}   // namespace
 
 Grains place_grains(const BedScene& scene) {
   switch (scene.source.kind) {
@@ -108,4 +115,4 @@ Grains place_grains(const BedScene& scene) {
   return grains_in_layers(scene);
 }
 
-}  // namespace bedload
+}   // namespace bedload

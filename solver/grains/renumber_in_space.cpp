@@ -25,7 +25,7 @@ void renumber(ContactHistory& contacts, const std::vector<std::uint32_t>& new_id
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     std::uint32_t lower = new_id[contacts.lower[k]], higher = contacts.higher[k];
     Vec3 spring = contacts.spring[k];
-    if (higher < new_id.size()) higher = new_id[higher];   // else a wall
+    if (higher < new_id.size()) higher = new_id[higher];              // else a wall
     if (lower > higher) std::swap(lower, higher), spring = -spring;   // it is the spring of the lower grain
     renamed[k] = {lower, higher, spring};
   }
@@ -37,7 +37,7 @@ void renumber(ContactHistory& contacts, const std::vector<std::uint32_t>& new_id
   }
 }
 
-}  // namespace
+}   // namespace
 
 void renumber_in_space(const BedScene& scene, Grains& grains, ContactHistory& contacts) {
   const double d = scene.grains.diameter;
@@ -54,4 +54,4 @@ void renumber_in_space(const BedScene& scene, Grains& grains, ContactHistory& co
   renumber(contacts, new_id);
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -7,15 +7,15 @@
 namespace bedload {
 namespace {
 
-constexpr double static_overlap = 0.005;      // under the bed's weight, per diameter [-]
-constexpr double collision_overlap = 0.02;    // of a collision at the fastest speed, per diameter [-]
-constexpr double strong_shields = 0.3;        // sheared at this Shields number ...
-constexpr double viscous_galileo = 18;        // ... if the flow about a grain is laminar, i.e. below this Galileo number
+constexpr double static_overlap = 0.005;     // under the bed's weight, per diameter [-]
+constexpr double collision_overlap = 0.02;   // of a collision at the fastest speed, per diameter [-]
+constexpr double strong_shields = 0.3;       // sheared at this Shields number ...
+constexpr double viscous_galileo = 18;       // ... if the flow about a grain is laminar, i.e. below this Galileo number
 
 struct Scales {
-  double excess;      // |s - 1| [-]
-  double gravity;     // [m/s2]
-  double galileo;     // sqrt((s-1) g d^3)/nu [-]
+  double excess;    // |s - 1| [-]
+  double gravity;   // [m/s2]
+  double galileo;   // sqrt((s-1) g d^3)/nu [-]
 };
 
 Scales scales_of(const BedScene& scene) {
@@ -40,11 +40,12 @@ double fastest_encounter(const BedScene& scene) {
   const Scales s = scales_of(scene);
   const double d = scene.grains.diameter;
   const double laminar_shear = strong_shields * s.excess * s.gravity * d / scene.fluid.viscosity;   // of the flow [1/s]
-  const double shear_speed = s.galileo > viscous_galileo ? std::sqrt(s.excess * s.gravity * d) : 0.2 * laminar_shear * d;
+  const double shear_speed =
+      s.galileo > viscous_galileo ? std::sqrt(s.excess * s.gravity * d) : 0.2 * laminar_shear * d;
   return std::max(terminal_speed(scene, s), shear_speed);
 }
 
-}  // namespace
+}   // namespace
 
 double bed_layers(const BedScene& scene) {
   constexpr double packing = 0.6;
@@ -57,9 +58,10 @@ double automatic_young_modulus(const BedScene& scene, double layers) {
   const GrainProperties& grains = scene.grains;
   const double contact = 1 - grains.poisson * grains.poisson, v = fastest_encounter(scene), d = grains.diameter;
   const double excess_weight = std::abs(grains.density - scene.fluid.density) * norm(scene.gravity) * d;   // [Pa]
-  const double under_weight = std::numbers::pi / 2 * contact * layers * excess_weight / (static_overlap * std::sqrt(static_overlap));   // (G14)
-  const double in_collision = 0.98 * contact * grains.density * v * v / std::pow(collision_overlap, 2.5);                              // (G15)
+  const double under_weight =
+      std::numbers::pi / 2 * contact * layers * excess_weight / (static_overlap * std::sqrt(static_overlap));   // (G14)
+  const double in_collision = 0.98 * contact * grains.density * v * v / std::pow(collision_overlap, 2.5);       // (G15)
   return std::max(under_weight, in_collision);
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -1,0 +1,225 @@
+#include "solver/grains/grain_dynamics.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "solver/grains/box_walls.hpp"
+#include "tests/solver/grains/grain_scenes.hpp"
+
+namespace bedload {
+namespace {
+
+TEST(GrainDynamics, FallFreelyWithGravity) {
+  const BedScene scene = grain_scene(Side::periodic, Side::wall);
+  Grains grains;
+  add_grain(grains, {20e-3, 20e-3, 30e-3});
+  GrainDynamics dynamics(scene);
+  ContactHistory contacts;
+  coast(dynamics, grains, contacts, 1e-5, 1000, {0, 0, -9.81});
+  EXPECT_NEAR(grains.velocity[0].z, -9.81e-2, 1e-10 * 9.81e-2);
+}
+
+TEST(GrainDynamics, RelaxToTheTerminalSpeedOfLinearDrag) {
+  const BedScene scene = grain_scene(Side::periodic, Side::wall);
+  Grains grains;
+  add_grain(grains, {20e-3, 20e-3, 30e-3});
+  GrainDynamics dynamics(scene);
+  ContactHistory contacts;
+  const std::vector<Vec3> push{{0, 0, -9.81}};
+  const std::vector<double> rate{1e7};   // a hundred times faster than the step: implicit, so harmless
+  dynamics.advance(grains, contacts, push, rate, 1e-5, 100, 0);
+  EXPECT_NEAR(grains.velocity[0].z, -9.81e-7, 1e-6 * 9.81e-7);
+}
+
+TEST(GrainDynamics, ConserveMomentumAmongCollidingGrains) {
+  const BedScene scene = [] {
+    BedScene s = grain_scene(Side::periodic, Side::periodic);
+    s.length = {8e-3, 8e-3, 8e-3};
+    return s;
+  }();
+  Grains grains = agitated_grains(scene, 120);
+  std::ranges::fill(grains.fixed, 0);
+  const Vec3 before = momentum(grains);
+  double scale = 0;
+  for (std::size_t i = 0; i < grains.size(); ++i) scale += mass_of(grains, i) * norm(grains.velocity[i]);
+  GrainDynamics dynamics(scene);
+  ContactHistory contacts;
+  std::uint64_t met = 0;
+  for (int n = 0; n < 200; ++n) met += coast(dynamics, grains, contacts, scene.dem_step, 10).contacts;
+  EXPECT_GT(met, 100u);
+  EXPECT_LE(norm(momentum(grains) - before), 1e-13 * scale);
+}
+
+TEST(GrainDynamics, ConserveAngularMomentumAmongUnequalSpinningGrains) {
+  const BedScene scene = grain_scene(Side::wall, Side::wall);
+  Grains grains;
+  add_grain(grains, {20e-3, 20e-3, 20e-3}, {0.2, 0.05, 0}, 1e-3);
+  add_grain(grains, {21.4e-3, 20.3e-3, 20.1e-3}, {-0.2, 0, 0.03}, 1.6e-3, 4000);
+  add_grain(grains, {20.2e-3, 21.1e-3, 20.4e-3}, {0, -0.3, -0.1}, 0.7e-3);
+  grains.spin = {{300, -100, 50}, {0, 80, -20}, {-500, 10, 900}};
+  const Vec3 before = angular_momentum(grains);
+  GrainDynamics dynamics(scene);
+  ContactHistory contacts;
+  std::uint64_t met = 0;
+  for (int n = 0; n < 100; ++n) met += coast(dynamics, grains, contacts, scene.dem_step, 10).contacts;
+  EXPECT_GT(met, 1u);
+  EXPECT_LE(norm(angular_momentum(grains) - before), 1e-11 * norm(before));
+}
+
+TEST(GrainDynamics, NeverMoveAFixedGrain) {
+  BedScene scene = grain_scene(Side::periodic, Side::wall);
+  scene.length = {8e-3, 8e-3, 8e-3};
+  Grains grains = agitated_grains(scene, 120);
+  const Grains before = grains;
+  GrainDynamics dynamics(scene);
+  ContactHistory contacts;
+  bool pushed = false;
+  for (int n = 0; n < 50; ++n) {
+    coast(dynamics, grains, contacts, scene.dem_step, 10, {0, 0, -9.81});
+    for (std::size_t i = 0; i < grains.size(); i += 10) pushed = pushed || norm(grains.mean_contact_force[i]) > 0;
+  }
+  EXPECT_TRUE(pushed) << "the contacts of fixed grains are booked";
+  for (std::size_t i = 0; i < grains.size(); i += 10) {
+    EXPECT_EQ(grains.position[i], before.position[i]);
+    EXPECT_EQ(grains.velocity[i], Vec3{});
+    EXPECT_EQ(grains.spin[i], Vec3{});
+  }
+}
+
+/// What a run of 200 x 10 steps under a strong pull ends in, with something done to the dynamics between its calls.
+template <class Meddle>
+std::pair<Grains, ContactHistory> agitate(const BedScene& scene, Meddle&& meddle) {
+  Grains grains = agitated_grains(scene, 170);
+  ContactHistory contacts;
+  auto dynamics = std::make_unique<GrainDynamics>(scene);
+  const PeriodicBox box(scene);
+  for (int n = 0; n < 200; ++n) {
+    coast(*dynamics, grains, contacts, scene.dem_step, 10, {3, 0, -30});
+    for (Vec3& place : grains.position) place = box.wrapped(place);
+    meddle(dynamics);
+  }
+  return {grains, contacts};
+}
+
+TEST(GrainDynamics, GiveTheSameBitsWheneverTheirListsAreMade) {
+  BedScene scene = grain_scene(Side::periodic, Side::wall);
+  scene.length = {8e-3, 8e-3, 10e-3};
+  const auto straight = agitate(scene, [](auto&) {});
+  const auto amnesic = agitate(scene, [](auto& dynamics) { dynamics->forget(); });
+  const auto replaced = agitate(scene, [&](auto& dynamics) { dynamics = std::make_unique<GrainDynamics>(scene); });
+  EXPECT_GT(straight.second.size(), 100u);
+  EXPECT_TRUE(straight == amnesic);
+  EXPECT_TRUE(straight == replaced);
+}
+
+TEST(GrainDynamics, GiveTheSameBitsInOneCallOrMany) {
+  BedScene scene = grain_scene(Side::periodic, Side::wall);
+  scene.length = {8e-3, 8e-3, 10e-3};
+  Grains together = agitated_grains(scene, 170), apart = together;
+  ContactHistory contacts_together, contacts_apart;
+  GrainDynamics one(scene), many(scene);
+  coast(one, together, contacts_together, scene.dem_step, 300);
+  for (int n = 0; n < 300; ++n) coast(many, apart, contacts_apart, scene.dem_step), many.forget();
+  EXPECT_TRUE(together.position == apart.position && together.velocity == apart.velocity &&
+              together.spin == apart.spin);
+  EXPECT_TRUE(contacts_together == contacts_apart);
+}
+
+TEST(GrainDynamics, CollideAcrossAPeriodicSeamAsAnywhereElse) {
+  const BedScene scene = grain_scene(Side::periodic, Side::periodic);
+  Grains middle, seam;
+  const Vec3 a{-0.52e-3, 0.1e-3, 0}, b{0.52e-3, -0.1e-3, 0.05e-3}, centre{20e-3, 20e-3, 20e-3};
+  for (auto* grains : {&middle, &seam}) {
+    const Vec3 origin = grains == &middle ? centre : Vec3{};
+    add_grain(*grains, PeriodicBox(scene).wrapped(origin + a), {0.2, 0, 0.01});
+    add_grain(*grains, PeriodicBox(scene).wrapped(origin + b), {-0.2, 0, 0});
+  }
+  GrainDynamics dynamics(scene), across(scene);
+  ContactHistory contacts, contacts_across;
+  for (int n = 0; n < 40; ++n) {
+    coast(dynamics, middle, contacts, scene.dem_step, 10);
+    coast(across, seam, contacts_across, scene.dem_step, 10);
+    for (Vec3& place : seam.position) place = PeriodicBox(scene).wrapped(place);
+  }
+  EXPECT_LT(middle.velocity[0].x, 0) << "they have met";
+  for (int i = 0; i < 2; ++i) EXPECT_LE(norm(middle.velocity[i] - seam.velocity[i]), 1e-9);
+}
+
+TEST(GrainDynamics, RestOnTheFloorWithTheirWeight) {
+  const BedScene scene = grain_scene(Side::periodic, Side::wall);
+  Grains grains;
+  add_grain(grains, {20e-3, 20e-3, 0.5e-3});
+  GrainDynamics dynamics(scene);
+  ContactHistory contacts;
+  GrainHealth health;
+  for (int n = 0; n < 500; ++n) health = coast(dynamics, grains, contacts, scene.dem_step, 10, {0, 0, -9.81});
+  const double weight = 9.81 * mass_of(grains, 0);
+  EXPECT_NEAR(health.force_on_walls.z, -weight, 1e-6 * weight);
+  EXPECT_NEAR(grains.mean_contact_force[0].z, weight, 1e-6 * weight);
+  EXPECT_EQ(health.contacts, 1u);
+  EXPECT_EQ(contacts.higher[0], static_cast<std::uint32_t>(Wall::z_low));
+  // Hertz: F = 4/3 Y* sqrt(R) depth^3/2
+  EXPECT_NEAR(health.deepest_overlap * 1e-3, std::pow(weight * 0.75 * 2 * 0.91 / 1e6 / std::sqrt(0.5e-3), 2.0 / 3),
+              1e-9);
+}
+
+TEST(GrainDynamics, AreDraggedByALidButNotByAFreeSurface) {
+  BedScene scene = grain_scene(Side::periodic, Side::wall);
+  for (const Top top : {Top::lid, Top::free_slip}) {
+    scene.top = top;
+    Grains grains;
+    add_grain(grains, {20e-3, 20e-3, 39.5e-3});
+    GrainDynamics dynamics(scene);
+    ContactHistory contacts;
+    const std::vector<Vec3> upward{{0, 0, 9.81}};
+    const auto health = dynamics.advance(grains, contacts, upward, {}, scene.dem_step, 200, 0.1);
+    EXPECT_GT(health.force_on_walls.z, 0);
+    if (top == Top::lid) {
+      EXPECT_GT(grains.velocity[0].x, 0.001);
+      EXPECT_LT(health.force_on_walls.x, 0);
+    } else {
+      EXPECT_EQ(grains.velocity[0].x, 0);
+    }
+  }
+}
+
+TEST(GrainDynamics, StandExtremeFrictionAndRestitution) {
+  BedScene scene = grain_scene(Side::wall, Side::wall);
+  scene.length = {6e-3, 6e-3, 10e-3};
+  for (const double friction : {0.0, 1.0})
+    for (const double restitution : {0.0, 1.0}) {
+      scene.grains.friction = friction, scene.grains.restitution = restitution;
+      Grains grains = agitated_grains(scene, 100);
+      const double dt = 0.3 * rayleigh_time(0.6e-3, 2500, 1e6, 0.3), before = kinetic_energy(grains);
+      GrainDynamics dynamics(scene);
+      ContactHistory contacts;
+      double deepest = 0;
+      for (int n = 0; n < 500; ++n)
+        deepest = std::max(deepest, coast(dynamics, grains, contacts, dt, 10).deepest_overlap);
+      EXPECT_LT(deepest, 0.2) << friction << " " << restitution;
+      EXPECT_LE(kinetic_energy(grains), before * 1.01) << friction << " " << restitution;
+      if (friction == 0 && restitution == 1) {
+        EXPECT_NEAR(kinetic_energy(grains), before, 0.05 * before);
+      }
+    }
+}
+
+TEST(GrainDynamics, RefuseAPeriodicBoxNarrowerThanTwoGrains) {
+  BedScene scene = grain_scene(Side::periodic, Side::wall);
+  scene.length.x = 1.5e-3;
+  Grains grains;
+  add_grain(grains, {1e-3, 20e-3, 20e-3});
+  GrainDynamics dynamics(scene);
+  ContactHistory contacts;
+  EXPECT_THROW(coast(dynamics, grains, contacts, scene.dem_step), Error);
+}
+
+TEST(GrainDynamics, DoNothingWithoutGrains) {
+  GrainDynamics dynamics(grain_scene(Side::periodic, Side::wall));
+  Grains grains;
+  ContactHistory contacts;
+  EXPECT_EQ(coast(dynamics, grains, contacts, 1e-5, 10).contacts, 0u);
+}
+
+}   // namespace
+}   // namespace bedload
