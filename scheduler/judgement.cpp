@@ -26,7 +26,8 @@ bool is_death(Cause cause) {
 Standstill standstill(const Position& position, const std::vector<Attempt>& attempts) {
   Standstill still;
   for (auto a = attempts.rbegin(); a != attempts.rend(); ++a) {
-    if (a->from_step.value_or(position.step) < position.step) break;   // the checkpoint has moved since
+    const bool moved_since = a->from_step.value_or(position.step) < position.step;
+    if (moved_since || a->cause == Cause::stopped) break;   // who stopped it, or asked for a retry, wants it to go on
     if (!is_death(a->cause)) continue;
     ++still.deaths;
     still.out_of_memory += a->cause == Cause::out_of_memory;

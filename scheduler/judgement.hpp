@@ -30,7 +30,8 @@ struct Judgement {
 };
 
 /// An attempt that moved the checkpoint forward is never held against its case. Errors of the user and of the physics are
-/// not repeated; a crash is, unless two came at the same step; so is a kill, until there were ten.
+/// not repeated; a crash is, unless two came at the same step; so is a kill, until there were ten. What came
+/// before an attempt that was stopped on request is forgotten: the user wants the case to go on.
 Judgement judge(const Position&, const std::vector<Attempt>&);
 
 /// The cause that a wait status suggests, for a worker that did not write one. (Through launchers it may lie: mpirun turns

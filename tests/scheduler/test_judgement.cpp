@@ -59,6 +59,14 @@ TEST(Judgement, NeverHoldsProgressAgainstACase) {
   EXPECT_EQ(judge({120, false}, crashes).verdict, Verdict::again);
 }
 
+TEST(Judgement, ForgetsWhatCameBeforeAStop) {
+  const auto crash = attempt(Cause::crash, 100, 140);
+  const auto stop = attempt(Cause::stopped, std::nullopt, std::nullopt);   // as `bedload retry` leaves it
+  EXPECT_EQ(judge({100, false}, {crash, crash, stop}).verdict, Verdict::again);
+  EXPECT_EQ(judge({100, false}, {crash, crash, stop, crash}).verdict, Verdict::again);
+  EXPECT_EQ(judge({100, false}, {crash, crash, stop, crash, crash}).verdict, Verdict::failed);
+}
+
 TEST(Judgement, DoesNotRepeatErrorsOfTheUserOrThePhysics) {
   for (const Cause cause : {Cause::user_error, Cause::numerical, Cause::corrupt})
     EXPECT_EQ(judge({100, false}, {attempt(cause, 0, 120)}).verdict, Verdict::failed) << word(cause);
