@@ -27,4 +27,9 @@ inline bool has_table(const Database& database, const std::string& name) {
   return !database.query("SELECT 1 FROM sqlite_schema WHERE name = ?", {name}).rows.empty();
 }
 
+/// A condition on column `case_id`: the case is in the study (every case, where no ledger is kept).
+inline std::string in_study(const Database& database) {
+  return has_table(database, "cases") ? "case_id IN (SELECT case_id FROM cases WHERE in_study)" : "1";
+}
+
 }  // namespace bedload

@@ -37,7 +37,7 @@ table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabu
 th { text-align: left; font-weight: 600; color: #5b6770; border-bottom: 1px solid #c6ced3; padding: 4px 14px 4px 0; vertical-align: bottom; }
 td { border-bottom: 1px solid #edf0f2; padding: 4px 14px 4px 0; vertical-align: top; }
 td.n, th.n { text-align: right; }
-.tag { display: inline-block; border-radius: 4px; padding: 0 7px; font-size: 12.5px; background: #e8edf0; color: #44515a; }
+.tag { display: inline-block; white-space: nowrap; border-radius: 4px; padding: 0 7px; font-size: 12.5px; background: #e8edf0; color: #44515a; }
 .tag.good { background: #dff1e8; color: #11633f; } .tag.open { background: #fdf0d5; color: #7a5200; }
 code, pre { font-family: ui-monospace, "Liberation Mono", "DejaVu Sans Mono", monospace; font-size: 13px; }
 pre { background: #f4f6f7; border: 1px solid #e0e5e8; border-radius: 6px; padding: 9px 12px; margin: 6px 0 10px; overflow-x: auto; }
@@ -134,8 +134,8 @@ std::string profile_section(const Database& database, const std::vector<Finished
 std::string model_section(const Database& database) {
   if (!has_table(database, "models")) return {};
   const Rows found = database.query(
-      "SELECT term, is_on, is_wanted, min(ratio), max(ratio), min(reason), count(*) FROM models GROUP BY term, is_on, is_wanted "
-      "ORDER BY min(position), is_on DESC");
+      fmt::format("SELECT term, is_on, is_wanted, min(ratio), max(ratio), min(reason), count(*) FROM models WHERE {} "
+                  "GROUP BY term, is_on, is_wanted ORDER BY min(position), is_on DESC", in_study(database)));
   if (found.rows.empty()) return {};
   std::string rows = header_row({"term", "", "deciding number", "cases", "reason (of one of the cases)"}, 2, 3);
   for (const auto& row : found.rows) {
@@ -167,7 +167,8 @@ std::string provenance_section(const Database& database, const ReportRequest& re
   std::string body = "<pre>" + escaped(request.command) + "</pre>\n";
   if (has_table(database, "provenance")) {
     const Rows builds = database.query(
-        "SELECT version, physics_version, compiler, flags, libraries, host, count(*) FROM provenance GROUP BY 1, 2, 3, 4, 5, 6 ORDER BY 1, 2, 3, 4, 5, 6");
+        fmt::format("SELECT version, physics_version, compiler, flags, libraries, host, count(*) FROM provenance WHERE {} "
+                    "GROUP BY 1, 2, 3, 4, 5, 6 ORDER BY 1, 2, 3, 4, 5, 6", in_study(database)));
     std::string rows = header_row({"version", "physics", "compiler", "flags", "libraries", "host", "cases"}, 99, 0);
     for (const auto& row : builds.rows) {
       rows += "<tr>";
@@ -175,7 +176,8 @@ std::string provenance_section(const Database& database, const ReportRequest& re
       rows += "</tr>\n";
     }
     if (!builds.rows.empty()) body += table(rows);
-    const Rows digests = database.query("SELECT s.label, p.seed, p.case_id, p.state_digest FROM provenance p JOIN scenes s USING (case_id) ORDER BY s.label");
+    const Rows digests = database.query(
+        fmt::format("SELECT label, p.seed, case_id, state_digest FROM provenance p JOIN scenes USING (case_id) WHERE {} ORDER BY label", in_study(database)));
     std::string states = header_row({"case", "seed", "id", "SHA-256 of the final state"}, 99, 0);
     for (const auto& row : digests.rows)
       states += "<tr>" + cell(text_in(row[0])) + cell(fmt::format("{:.0f}", number_in(row[1]))) + "<td><code>" + escaped(text_in(row[2]).substr(0, 12)) +

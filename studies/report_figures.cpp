@@ -91,10 +91,9 @@ std::string threshold_figure(const std::vector<ThresholdPoint>& curve) {
 std::vector<FinishedCase> finished_cases(const Database& database) {
   std::vector<FinishedCase> cases;
   if (!has_table(database, "scenes")) return cases;
-  const bool enrolled = has_table(database, "cases");
   const Rows found = database.query(
-      fmt::format("SELECT case_id, label, diameter_m FROM scenes {} ORDER BY diameter_m, density_ratio, viscosity_m2_per_s, parameter_set, seed",
-                  enrolled ? "WHERE case_id IN (SELECT case_id FROM cases WHERE in_study)" : ""));
+      fmt::format("SELECT case_id, label, diameter_m FROM scenes WHERE {} ORDER BY diameter_m, density_ratio, viscosity_m2_per_s, parameter_set, seed",
+                  in_study(database)));
   for (const auto& row : found.rows) cases.push_back({text_in(row[0]), text_in(row[1]), number_in(row[2])});
   return cases;
 }

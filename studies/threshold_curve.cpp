@@ -83,12 +83,11 @@ void summarise(const std::vector<SeedThreshold>& seeds, ThresholdPoint& point) {
 
 /// Every finished seed that counts, in the curve's order.
 Rows seeds_in_order(const Database& database) {
-  const bool enrolled = has_table(database, "cases");
   return database.query(fmt::format(
       "SELECT s.parameter_set, s.set_label, s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.galileo, t.status, t.shields, "
-      "t.shields_lower, t.shields_upper FROM scenes s JOIN thresholds t USING (case_id) WHERE t.decides = 1 {} "
+      "t.shields_lower, t.shields_upper FROM scenes s JOIN thresholds t USING (case_id) WHERE t.decides = 1 AND {} "
       "ORDER BY s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.parameter_set, s.seed",
-      enrolled ? "AND s.case_id IN (SELECT case_id FROM cases WHERE in_study)" : ""));
+      in_study(database)));
 }
 
 std::vector<ThresholdPoint> curve_from_thresholds(const Database& database) {

@@ -1,0 +1,124 @@
+// What a hold imposes is what it measures; what it records closes.
+#include "solver/experiment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "solver/bed/bed_surface.hpp"
+#include "solver/bed/incipient_motion.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bedload {
+namespace {
+
+constexpr double d = 0.5e-3, nu = 1e-5;
+
+/// 8 x 6 x 10 d, cells 2 x 2 x 0.5 d, soft grains of density ratio 2.
+Scene bed_scene(std::uint64_t count, FlowRamp::Kind kind, std::vector<double> shields) {
+  Scene scene = test::fluid_scene({4, 3, 20}, {2 * d, 2 * d, 0.5 * d}, test::channel, nu);
+  scene.bed.gravity = {0, 0, -9.81};
+  test::add_grains(scene, d, 2, 0.05);
+  scene.bed.grains.friction = 0.4;
+  scene.bed.grains.restitution = 0.6;
+  scene.bed.source = {.kind = count ? BedSource::Kind::poured : BedSource::Kind::none, .count = count, .seed = 3};
+  scene.drive = {kind, FlowRamp::Quantity::shields, std::move(shields), 60 * scene.steps.fluid_interval};
+  scene.onset.method = Onset::Method::none;
+  scene.record.every = 10 * scene.steps.fluid_interval;
+  return scene;
+}
+
+State run(const Scene& scene) {
+  Experiment experiment(scene);
+  State state = experiment.begin();
+  while (!Experiment::finished(state)) {
+    EXPECT_TRUE(experiment.step(state).finite);
+    if (::testing::Test::HasFailure()) break;
+  }
+  return state;
+}
+
+TEST(Experiment, OverABareBottomMeasuresTheShieldsNumberItImposes) {
+  const State state = run(bed_scene(0, FlowRamp::Kind::lid, {0.1, 0.25}));
+  const auto& holds = state.record.holds;
+  ASSERT_EQ(holds.hold.size(), 2u);
+  EXPECT_NEAR(holds.shields_measured[0], 0.1, 1e-9);   // plane Couette flow is exact on the grid
+  EXPECT_NEAR(holds.shields_measured[1], 0.25, 1e-9);
+  EXPECT_LT(holds.momentum_residual[1], 1e-10);
+}
+
+TEST(Experiment, ReadsTheFlowsFromPressureOffTheBottomWithinTheirGridError) {
+  for (const Top top : {Top::lid, Top::free_slip}) {
+    Scene scene = bed_scene(0, FlowRamp::Kind::pressure, {0.1});
+    scene.bed.top = scene.grid.top = top;
+    const State state = run(scene);
+    EXPECT_NEAR(state.record.holds.shields_measured.at(0), 0.1, 0.1 / 20);   // a parabola's wall slope, first cell of 20
+    EXPECT_LT(state.record.holds.momentum_residual.at(0), 1e-10);
+  }
+}
+
+TEST(Experiment, OverABedClosesItsMomentumAndFindsTheImposedShieldsNumber) {
+  const State state = run(bed_scene(190, FlowRamp::Kind::lid, {0.05, 0.05, 0.05, 0.05}));
+  const auto& holds = state.record.holds;
+  for (const double residual : holds.momentum_residual) EXPECT_LT(residual, 1e-10);
+  EXPECT_NEAR(holds.shields_measured.back(), 0.05, 0.1 * 0.05);   // the flow inside the surface is still finding its place
+  EXPECT_GT(holds.bed_height.back(), 3 * d);
+  EXPECT_GT(holds.porosity.back(), 0.36);
+  EXPECT_LT(holds.porosity.back(), 0.55);
+}
+
+TEST(Experiment, RecordsSamplesHoldsAndProfilesOnceEach) {
+  Scene scene = bed_scene(60, FlowRamp::Kind::lid, {0.05, 0.1});
+  scene.record.tracks = {0, 59};
+  const State state = run(scene);
+  const BedRecord& record = state.record;
+  EXPECT_EQ(record.holds.hold, (std::vector<double>{0, 1}));
+  EXPECT_NEAR(double(record.samples.time.size()), 12, 2);   // 2 dwells of 60 steps, every 10: steps may be cut
+  EXPECT_EQ(record.tracks.time.size(), 2 * record.samples.time.size());
+  EXPECT_EQ(record.profiles.hold.front(), -1);
+  EXPECT_EQ(record.profiles.hold.back(), 1);
+  EXPECT_EQ(record.profiles.z.size(), 3 * 40u);   // layers of d/4
+  for (std::size_t n = 1; n < record.samples.time.size(); ++n) EXPECT_GT(record.samples.time[n], record.samples.time[n - 1]);
+}
+
+TEST(Experiment, HasNoMomentumResidualToShowWhereWallsOrFixedGrainsTakePart) {
+  Scene scene = bed_scene(0, FlowRamp::Kind::lid, {0.1});
+  scene.bed.sides[1] = scene.grid.sides[1] = Side::wall;
+  EXPECT_EQ(run(scene).record.holds.momentum_residual.at(0), -1);
+}
+
+TEST(Experiment, WithoutADriveIsOneHoldOfOneDwell) {
+  const Scene scene = bed_scene(0, FlowRamp::Kind::none, {});
+  const State state = run(scene);
+  EXPECT_EQ(state.record.holds.hold.size(), 1u);
+  EXPECT_GE(state.clock.time, scene.drive.dwell);
+  EXPECT_EQ(Experiment(scene).planned_time(), scene.drive.dwell);
+}
+
+TEST(Experiment, OnASharedBedIsTheExperimentThatPacksItsOwn) {
+  const Scene scene = bed_scene(60, FlowRamp::Kind::lid, {0.1});
+  Scene bed_only = scene;
+  bed_only.bed_only = true;
+  const State settled = run(bed_only);
+  EXPECT_TRUE(settled.record.holds.hold.empty());
+
+  Experiment experiment(scene);
+  State state = experiment.begin_on(settled);
+  EXPECT_EQ(state.clock.step, settled.clock.step);   // the number of the checkpoint never goes back
+  while (!Experiment::finished(state)) experiment.step(state);
+  EXPECT_EQ(state_digest(state), state_digest(run(scene)));
+}
+
+TEST(Experiment, GoesOnWhenItsRampGrows) {
+  const Scene shorter = bed_scene(60, FlowRamp::Kind::lid, {0.05}), longer = bed_scene(60, FlowRamp::Kind::lid, {0.05, 0.1});
+  State state = run(shorter);
+  EXPECT_FALSE(Experiment(shorter).reopen(state));
+  Experiment experiment(longer);
+  ASSERT_TRUE(experiment.reopen(state));
+  while (!Experiment::finished(state)) experiment.step(state);
+  EXPECT_EQ(state_digest(state), state_digest(run(longer)));
+}
+
+}  // namespace
+}  // namespace bedload

@@ -1,0 +1,129 @@
+// The page: complete, self-contained, well-formed, with what the database says.
+#include "studies/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "studies/bed_picture.hpp"
+#include "studies/results.hpp"
+#include "studies/svg_plot.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace bedload {
+namespace {
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+/// Every tag of a name is closed, or closes itself.
+void expect_balanced(const std::string& page, const std::string& name) {
+  const std::regex open("<" + name + "(\\s[^>]*[^/]|)>"), close("</" + name + ">");
+  const auto number_of = [&](const std::regex& what) {
+    return std::distance(std::sregex_iterator(page.begin(), page.end(), what), std::sregex_iterator());
+  };
+  EXPECT_EQ(number_of(open), number_of(close)) << name;
+}
+
+class ReportTest : public ::testing::Test {
+ protected:
+  ReportTest() { create_result_tables(database_); }
+  void add_point(const std::string& set, const char* status, Value shields, Value lower, Value upper) {
+    database_.execute("INSERT INTO threshold_curve VALUES (?,?,5e-4,2,1e-5,3.5,1.4,?,?,?,?,1,1,0,0,0)", {set, set, shields, lower, upper, std::string(status)});
+  }
+  void add_case() {
+    database_.execute("INSERT INTO scenes VALUES ('c','label-c','set','set',1,5e-4,0,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,1,'stokes',1,1,1)");
+    database_.execute("INSERT INTO thresholds VALUES ('c','flux',0.01,1,'bracketed',0.17,0.15,0.18)");
+    for (const auto* row : {"0,0,1,0.1,0.1,0,0,0,0,0,0", "1,1,2,0.2,0.2,0,0,0,0,0.5,0.1"})
+      database_.execute(std::string("INSERT INTO ramp_points VALUES ('c',") + row + ",0,0,0.1,0.003,0.0005,0.4,5,0)");
+    for (int z = 0; z < 4; ++z)
+      database_.execute("INSERT INTO bed_statistics VALUES ('c',1,?,0.5,0.1,0.05)", {z * 1e-3});
+    database_.execute("INSERT INTO models VALUES ('c',0,'drag',1,1,0.5,'a < b & c')");
+  }
+  std::string page() const { return report_html(database_, {"my <study>", "bedload run my.toml", "", {}}); }
+
+  TemporaryDirectory directory_;
+  Database database_{directory_.path() / "study.db", Database::Mode::write};
+};
+
+TEST_F(ReportTest, SaysSoWhenNothingHasFinished) {
+  EXPECT_NE(page().find("No case has finished yet"), std::string::npos);
+}
+
+TEST_F(ReportTest, FetchesNothing) {
+  add_case();
+  add_point("a", "bracketed", 0.17, 0.15, 0.18);
+  for (const char* fetch : {"http:", "https:", "src=", "@import", "url(http"}) EXPECT_EQ(page().find(fetch), std::string::npos) << fetch;
+}
+
+TEST_F(ReportTest, IsWellFormedAndEscapesWhatOthersWrote) {
+  add_case();
+  add_point("a<b", "bracketed", 0.17, 0.15, 0.18);
+  const std::string html = page();
+  for (const char* tag : {"svg", "g", "table", "tr", "td", "section", "div", "text"}) expect_balanced(html, tag);
+  EXPECT_NE(html.find("my &lt;study&gt;"), std::string::npos);
+  EXPECT_NE(html.find("a &lt; b &amp; c"), std::string::npos);
+  EXPECT_EQ(html.find("a<b"), std::string::npos);
+  EXPECT_FALSE(std::regex_search(html, std::regex("\\bnan\\b")));
+}
+
+TEST_F(ReportTest, ShowsValuesFilledAndOneSidedBoundsOpen) {
+  add_point("a", "bracketed", 0.17, 0.15, 0.18);
+  add_point("b", "censored_above", Value(), 0.44, Value());
+  const std::string html = page();
+  EXPECT_NE(html.find("a: theta_c = 0.1700, between 0.1500 and 0.1800"), std::string::npos);
+  const std::size_t bound = html.find("b: theta_c &gt; 0.4400");
+  ASSERT_NE(bound, std::string::npos);
+  EXPECT_NE(html.substr(bound - 140, 140).find("fill='#fff'"), std::string::npos);
+}
+
+TEST_F(ReportTest, NamesEveryPublishedCurve) {
+  for (const char* name : {"Soulsby 1997", "Brownlie 1981", "Parker 2003", "Cao 2006", "Guo 2002", "van Rijn 1984", "0.12 ± 0.03"})
+    EXPECT_NE(page().find(name), std::string::npos) << name;
+}
+
+TEST_F(ReportTest, LeavesOutCasesThatLeftTheStudy) {
+  add_case();
+  EXPECT_NE(page().find("label-c"), std::string::npos);
+  database_.execute("CREATE TABLE cases (case_id TEXT, in_study INTEGER)");
+  database_.execute("INSERT INTO cases VALUES ('c', 0)");
+  EXPECT_EQ(page().find("label-c"), std::string::npos);
+}
+
+BedView two_grains() {
+  BedView view{.label = "bed", .moment = "", .grains = {}, .length = {10, 20, 5}, .diameter = 1, .speed_scale = 1};
+  view.grains.resize(2);
+  view.grains.position = {{4, 1, 1}, {5, 12, 1}};   // the second lies behind the slice of five diameters
+  view.grains.diameter = {1, 1};
+  return view;
+}
+
+TEST(BedPicture, ShowsTheFrontSlice) {
+  EXPECT_EQ(occurrences(bed_picture(two_grains(), 100), "<circle"), 1u);
+}
+
+TEST(BedPicture, ShowsAGrainAcrossTheSeamAtBothEnds) {
+  BedView view = two_grains();
+  view.grains.position[0].x = 9.9;
+  EXPECT_EQ(occurrences(bed_picture(view, 100), "<circle"), 2u);
+}
+
+TEST(BedPicture, ColoursAMovingGrainUnlikeAStillOne) {
+  BedView moving = two_grains();
+  moving.grains.velocity[0] = {0.5, 0, 0};
+  EXPECT_NE(bed_picture(moving, 100), bed_picture(two_grains(), 100));
+}
+
+TEST(SvgPlot, PutsDataWhereItsAxesSay) {
+  SvgPlot plot(184, 156, {"x", 1, 100, true}, {"y", 0, 2, false});   // a plotting area of 100 x 100 pixels
+  plot.marker({10, 0.5}, Marker::circle, "#000", true, "here");
+  EXPECT_NE(plot.svg().find("cx='50.0' cy='75.0'"), std::string::npos);
+  plot.marker({1000, 0.5}, Marker::circle, "#000", true, "outside");
+  EXPECT_EQ(plot.svg().find("outside"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bedload
