@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 12> words = {"running",       "finished",   "stopped",   "wall_limit",
-                                                    "crash",         "killed",     "out_of_memory", "user_error",
-                                                    "numerical",     "io",         "corrupt",   "fenced"};
+constexpr std::array<std::string_view, 12> words = {"running",   "finished", "stopped",       "wall_limit",
+                                                    "crash",     "killed",   "out_of_memory", "user_error",
+                                                    "numerical", "io",       "corrupt",       "fenced"};
 
 fs::path file_of(const fs::path& directory, int number) { return directory / fmt::format("attempt.{}.json", number); }
 
@@ -90,7 +90,7 @@ Attempt attempt_in(const std::string& text) {
   return a;
 }
 
-}  // namespace
+}   // namespace
 
 std::string_view word(Cause cause) { return words[static_cast<std::size_t>(cause)]; }
 
@@ -99,22 +99,15 @@ Cause cause_of(ErrorKind kind) {
     case ErrorKind::usage:
     case ErrorKind::study_invalid:
     case ErrorKind::not_found:
-    case ErrorKind::unavailable:
-      return Cause::user_error;
+    case ErrorKind::unavailable: return Cause::user_error;
     case ErrorKind::locked:
-    case ErrorKind::fenced:
-      return Cause::fenced;
-    case ErrorKind::io:
-      return Cause::io;
-    case ErrorKind::stopped:
-      return Cause::stopped;
-    case ErrorKind::corrupt:
-      return Cause::corrupt;
-    case ErrorKind::numerical:
-      return Cause::numerical;
+    case ErrorKind::fenced: return Cause::fenced;
+    case ErrorKind::io: return Cause::io;
+    case ErrorKind::stopped: return Cause::stopped;
+    case ErrorKind::corrupt: return Cause::corrupt;
+    case ErrorKind::numerical: return Cause::numerical;
     case ErrorKind::some_failed:
-    case ErrorKind::internal:
-      break;
+    case ErrorKind::internal: break;
   }
   return Cause::crash;
 }
@@ -127,7 +120,8 @@ Attempt open_attempt(const fs::path& directory) {
   a.boot_id = boot_id();
   a.start = utc_now();
   if (!publish_once(file_of(directory, a.number), text_of(a)))
-    throw Error(ErrorKind::fenced, fmt::format("{}: attempt {} was taken by another process", directory.string(), a.number),
+    throw Error(ErrorKind::fenced,
+                fmt::format("{}: attempt {} was taken by another process", directory.string(), a.number),
                 "one worker at a time runs a case; the other one goes on");
   return a;
 }
@@ -175,4 +169,4 @@ std::string boot_id() {
   return id;
 }
 
-}  // namespace bedload
+}   // namespace bedload

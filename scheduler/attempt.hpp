@@ -14,7 +14,18 @@ namespace bedload {
 
 /// Why an attempt ended. `running` = not yet, or it was killed before it could say.
 enum class Cause {
-  running, finished, stopped, wall_limit, crash, killed, out_of_memory, user_error, numerical, io, corrupt, fenced
+  running,
+  finished,
+  stopped,
+  wall_limit,
+  crash,
+  killed,
+  out_of_memory,
+  user_error,
+  numerical,
+  io,
+  corrupt,
+  fenced
 };
 std::string_view word(Cause);
 /// What a worker that ends by this error writes into its attempt.
@@ -26,14 +37,14 @@ struct Attempt {
   int number = 0;
   std::string host;
   std::int64_t pid = 0;
-  std::string boot_id;                      // of the host's kernel: a pid means nothing after a reboot
-  std::string start, end;                   // UTC, ISO 8601; end is empty while it runs
+  std::string boot_id;      // of the host's kernel: a pid means nothing after a reboot
+  std::string start, end;   // UTC, ISO 8601; end is empty while it runs
   Cause cause = Cause::running;
   std::string message;                      // of the error that ended it
   std::optional<std::uint64_t> from_step;   // of the checkpoint it continued (0 = from the bed); unknown until read
   std::optional<std::uint64_t> step;        // reached; after a crash, that of the last heartbeat
   double core_seconds = 0;
-  std::string version, compiler;            // of the bedload that ran
+  std::string version, compiler;   // of the bedload that ran
 };
 
 /// Claims the next number, filled in for this process and this moment. The caller holds the case's lock; where network
@@ -58,4 +69,4 @@ std::string host_name();
 /// Identity of this boot of the host's kernel.
 std::string boot_id();
 
-}  // namespace bedload
+}   // namespace bedload

@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* bed_file = "bed.h5";
 
-}  // namespace
+}   // namespace
 
 bool has_bed(const std::filesystem::path& directory) { return std::filesystem::exists(directory / bed_file); }
 
@@ -18,4 +18,4 @@ void share_bed(const std::filesystem::path& from, const std::filesystem::path& t
   if (problem && !has_bed(to)) publish(to / bed_file, read_file(from / bed_file));
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -11,4 +11,4 @@ bool has_bed(const std::filesystem::path& directory);
 /// durable copy where the file system cannot link. Throws Error io, not_found.
 void share_bed(const std::filesystem::path& bed_directory, const std::filesystem::path& case_directory);
 
-}  // namespace bedload
+}   // namespace bedload

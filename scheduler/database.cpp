@@ -15,23 +15,23 @@
 namespace bedload {
 namespace {
 
-constexpr int layout_version = 1;      // PRAGMA user_version: moves when a table changes its meaning
-constexpr int patience_ms = 10'000;    // how long a statement waits for another process's transaction
+constexpr int layout_version = 1;     // PRAGMA user_version: moves when a table changes its meaning
+constexpr int patience_ms = 10'000;   // how long a statement waits for another process's transaction
 
 /// WAL needs memory shared between all who open the file, which network file systems do not have (statfs(2) magics).
 bool on_network_file_system(const std::filesystem::path& directory) {
   constexpr std::array<unsigned long, 11> network = {
-      0x6969,      // NFS
-      0xff534d42,  // CIFS
-      0xfe534d42,  // SMB2
-      0x517b,      // SMB
-      0x0bd00bd0,  // Lustre
-      0x47504653,  // GPFS
-      0x01021997,  // 9p
-      0x00c36400,  // Ceph
-      0x19830326,  // BeeGFS
-      0xaad7aaea,  // PanFS
-      0x65735546,  // FUSE: sshfs and others
+      0x6969,       // NFS
+      0xff534d42,   // CIFS
+      0xfe534d42,   // SMB2
+      0x517b,       // SMB
+      0x0bd00bd0,   // Lustre
+      0x47504653,   // GPFS
+      0x01021997,   // 9p
+      0x00c36400,   // Ceph
+      0x19830326,   // BeeGFS
+      0xaad7aaea,   // PanFS
+      0x65735546,   // FUSE: sshfs and others
   };
   struct statfs info {};
   if (::statfs(directory.c_str(), &info) != 0) return false;
@@ -45,12 +45,9 @@ int allow_reading_only(void*, int action, const char*, const char* function, con
   switch (action) {
     case SQLITE_SELECT:
     case SQLITE_READ:
-    case SQLITE_RECURSIVE:
-      return SQLITE_OK;
-    case SQLITE_FUNCTION:
-      return std::strcmp(function, "load_extension") == 0 ? SQLITE_DENY : SQLITE_OK;
-    default:
-      return SQLITE_DENY;
+    case SQLITE_RECURSIVE: return SQLITE_OK;
+    case SQLITE_FUNCTION: return std::strcmp(function, "load_extension") == 0 ? SQLITE_DENY : SQLITE_OK;
+    default: return SQLITE_DENY;
   }
 }
 
@@ -62,19 +59,15 @@ int allow_reading_only(void*, int action, const char*, const char* function, con
       throw Error(ErrorKind::usage, fmt::format("{}: a query may only read", file.string()),
                   "use SELECT; to change or copy the database open it with sqlite3");
     case SQLITE_BUSY:
-    case SQLITE_LOCKED:
-      throw Error(ErrorKind::locked, text, "another process is writing to it; try again in a moment");
+    case SQLITE_LOCKED: throw Error(ErrorKind::locked, text, "another process is writing to it; try again in a moment");
     case SQLITE_CORRUPT:
-    case SQLITE_NOTADB:
-      throw Error(ErrorKind::corrupt, text, rebuild);
+    case SQLITE_NOTADB: throw Error(ErrorKind::corrupt, text, rebuild);
     case SQLITE_CANTOPEN:
     case SQLITE_FULL:
     case SQLITE_IOERR:
     case SQLITE_PERM:
-    case SQLITE_READONLY:
-      throw Error(ErrorKind::io, text, "check free space and permissions of its directory");
-    default:
-      throw Error(mode == Database::Mode::query ? ErrorKind::usage : ErrorKind::internal, text);
+    case SQLITE_READONLY: throw Error(ErrorKind::io, text, "check free space and permissions of its directory");
+    default: throw Error(mode == Database::Mode::query ? ErrorKind::usage : ErrorKind::internal, text);
   }
 }
 
@@ -94,7 +87,7 @@ void bind(SQLite::Statement& statement, const std::vector<Value>& parameters) {
   }   // a parameter that is not bound is NULL
 }
 
-}  // namespace
+}   // namespace
 
 struct Database::Connection {
   Connection(const std::filesystem::path& path, Mode m)
@@ -114,10 +107,10 @@ struct Database::Connection {
   void check_layout() {
     const int version = handle.execAndGet("PRAGMA user_version").getInt();
     if (version > layout_version)
-      throw Error(ErrorKind::corrupt,
-                  fmt::format("{} is of a newer bedload: layout {}, this one knows {}", file.string(), version,
-                              layout_version),
-                  "use the bedload that wrote it");
+      throw Error(
+          ErrorKind::corrupt,
+          fmt::format("{} is of a newer bedload: layout {}, this one knows {}", file.string(), version, layout_version),
+          "use the bedload that wrote it");
     if (version < layout_version && !(mode == Mode::write && is_new()))
       throw Error(ErrorKind::corrupt, fmt::format("{} is not the database of a study", file.string()),
                   "move it away; `bedload run` makes a new one from the case directories");
@@ -193,4 +186,4 @@ Database::Transaction::~Transaction() {
                                       : "ROLLBACK TO inner_transaction; RELEASE inner_transaction");
 }
 
-}  // namespace bedload
+}   // namespace bedload

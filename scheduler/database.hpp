@@ -44,4 +44,4 @@ class Database {
   std::unique_ptr<Connection> connection_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

@@ -37,4 +37,4 @@ class Executor {
   virtual void kill(JobId) = 0;
 };
 
-}  // namespace bedload
+}   // namespace bedload

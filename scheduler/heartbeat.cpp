@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-}  // namespace
+}   // namespace
 
 void write_heartbeat(const std::filesystem::path& directory, const Heartbeat& h) noexcept try {
   const Json json = {{"pid", h.pid},
@@ -46,4 +46,4 @@ std::optional<Heartbeat> read_heartbeat(const std::filesystem::path& directory) 
   return std::nullopt;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -1,6 +1,7 @@
 // status.json: how far a worker has come. Progress, never truth: losing it costs nothing.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -19,6 +20,8 @@ struct Heartbeat {
   double steps_per_second = 0;   // wall seconds
   double wall_time = 0;          // of this attempt so far [s]
 
+  /// Of the planned time; 0 where nothing is planned.
+  double fraction() const { return planned_time > 0 ? std::clamp(time / planned_time, 0.0, 1.0) : 0; }
   bool operator==(const Heartbeat&) const = default;
 };
 
@@ -28,4 +31,4 @@ void write_heartbeat(const std::filesystem::path& case_directory, const Heartbea
 /// Nothing if there is none that can be read; members that are missing keep their defaults.
 std::optional<Heartbeat> read_heartbeat(const std::filesystem::path& case_directory);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -8,7 +8,7 @@ volatile std::sig_atomic_t interrupts = 0;
 
 extern "C" void count_interrupt(int) { interrupts = interrupts + 1; }
 
-}  // namespace
+}   // namespace
 
 InterruptCounter::InterruptCounter() {
   interrupts = 0;
@@ -26,4 +26,4 @@ InterruptCounter::~InterruptCounter() {
 
 int InterruptCounter::count() { return interrupts; }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -16,7 +16,8 @@ class InterruptCounter {
   static int count();   // since the last one was made
 
  private:
-  struct sigaction interrupt_before_ {}, terminate_before_ {};
+  struct sigaction interrupt_before_ {
+  }, terminate_before_{};
 };
 
-}  // namespace bedload
+}   // namespace bedload

@@ -9,7 +9,7 @@
 namespace bedload {
 namespace {
 
-constexpr int most_deaths = 10;      // of any kind, at one checkpoint
+constexpr int most_deaths = 10;   // of any kind, at one checkpoint
 constexpr int same_step_crashes = 2;
 constexpr int most_out_of_memory = 2;
 
@@ -45,13 +45,14 @@ Judgement judge_death(const Attempt& last, const Standstill& still) {
     return Judgement{Verdict::failed, with_message(reason, last), still.deaths};
   };
   if (last.cause == Cause::crash && still.crashes_at_last_step >= same_step_crashes)
-    return failed(last.step ? fmt::format("crashed twice at step {}", *last.step) : "crashed twice before its first step");
+    return failed(last.step ? fmt::format("crashed twice at step {}", *last.step)
+                            : "crashed twice before its first step");
   if (still.out_of_memory >= most_out_of_memory) return failed("twice out of memory without progress");
   if (still.deaths >= most_deaths) return failed(fmt::format("died {} times without progress", still.deaths));
   return {Verdict::again, with_message(std::string(word(last.cause)), last), still.deaths};
 }
 
-}  // namespace
+}   // namespace
 
 Judgement judge(const Position& position, const std::vector<Attempt>& attempts) {
   if (position.finished) return {Verdict::done, {}, 0};
@@ -60,36 +61,29 @@ Judgement judge(const Position& position, const std::vector<Attempt>& attempts) 
   switch (last.cause) {
     case Cause::user_error:
     case Cause::numerical:
-    case Cause::corrupt:
-      return {Verdict::failed, with_message(std::string(word(last.cause)), last), 0};
-    case Cause::io:
-      return {Verdict::set_aside, with_message("io", last), 0};
+    case Cause::corrupt: return {Verdict::failed, with_message(std::string(word(last.cause)), last), 0};
+    case Cause::io: return {Verdict::set_aside, with_message("io", last), 0};
     case Cause::crash:
     case Cause::killed:
     case Cause::out_of_memory:
-    case Cause::finished:
-      return judge_death(last, standstill(position, attempts));
+    case Cause::finished: return judge_death(last, standstill(position, attempts));
     case Cause::running:
     case Cause::stopped:
     case Cause::wall_limit:
-    case Cause::fenced:
-      break;
+    case Cause::fenced: break;
   }
   return {Verdict::again, {}, 0};
 }
 
 Cause cause_of(const JobEnd& end) {
   switch (end.signal) {
-    case 0:
-      break;
+    case 0: break;
     case SIGSEGV:
     case SIGABRT:
     case SIGBUS:
     case SIGFPE:
-    case SIGILL:
-      return Cause::crash;
-    default:
-      return Cause::killed;
+    case SIGILL: return Cause::crash;
+    default: return Cause::killed;
   }
   switch (end.exit_code) {   // a closed set: anything else is a worker that broke
     case 2:
@@ -101,12 +95,9 @@ Cause cause_of(const JobEnd& end) {
     case 75:
     case 76:
     case 80:
-    case 82:
-      return cause_of(static_cast<ErrorKind>(end.exit_code));
-    case 137:
-      return Cause::killed;   // what a shell or mpirun makes of SIGKILL
-    default:
-      return Cause::crash;
+    case 82: return cause_of(static_cast<ErrorKind>(end.exit_code));
+    case 137: return Cause::killed;   // what a shell or mpirun makes of SIGKILL
+    default: return Cause::crash;
   }
 }
 
@@ -115,4 +106,4 @@ std::string describe(const JobEnd& end) {
                          : fmt::format("exit code {}", end.exit_code);
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -25,8 +25,9 @@ enum class Verdict {
 
 struct Judgement {
   Verdict verdict = Verdict::again;
-  std::string reason;          // for the user; empty when all is as it should be
-  int without_progress = 0;    // attempts at the end of the list that left the checkpoint where it was, and not by request
+  std::string reason;   // for the user; empty when all is as it should be
+  int without_progress =
+      0;   // attempts at the end of the list that left the checkpoint where it was, and not by request
 };
 
 /// An attempt that moved the checkpoint forward is never held against its case. Errors of the user and of the physics are
@@ -40,4 +41,4 @@ Cause cause_of(const JobEnd&);
 /// "signal 11 (Segmentation fault)", "exit code 70"
 std::string describe(const JobEnd&);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -78,19 +78,22 @@ bool is_column_name(std::string_view name) {
 
 std::set<std::string> columns_of_cases(const Database& database) {
   std::set<std::string> names;
-  for (const auto& row : database.query("SELECT name FROM pragma_table_info('cases')").rows) names.insert(text_in(row[0]));
+  for (const auto& row : database.query("SELECT name FROM pragma_table_info('cases')").rows)
+    names.insert(text_in(row[0]));
   return names;
 }
 
-}  // namespace
+}   // namespace
 
 std::string_view word(CaseState state) { return state_words[static_cast<std::size_t>(state)]; }
 
 std::vector<CaseEntry> read_cases(const Database& database) {
   if (database.query("SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = 'cases'").rows.empty()) return {};
   std::vector<CaseEntry> entries;
-  for (const auto& row : database.query("SELECT case_id, label, kind, directory, bed_id, parameters_json, state, message, "
-                                        "in_study FROM cases ORDER BY position").rows) {
+  for (const auto& row : database
+                             .query("SELECT case_id, label, kind, directory, bed_id, parameters_json, state, message, "
+                                    "in_study FROM cases ORDER BY position")
+                             .rows) {
     CaseEntry& entry = entries.emplace_back();
     entry.id = text_in(row[0]);
     entry.label = text_in(row[1]);
@@ -148,18 +151,20 @@ std::vector<CaseEntry> Ledger::cases() const {
 }
 
 void Ledger::set_state(const std::string& id, CaseState state, const std::string& message) {
-  database_->execute("UPDATE cases SET state = ?, message = ? WHERE case_id = ?", {std::string(word(state)), message, id});
+  database_->execute("UPDATE cases SET state = ?, message = ? WHERE case_id = ?",
+                     {std::string(word(state)), message, id});
 }
 
 void Ledger::record_attempts(const std::string& id, const std::vector<Attempt>& attempts) {
   Database::Transaction transaction(*database_);
   for (const auto& a : attempts)
     database_->execute(
-        "INSERT OR REPLACE INTO attempts (case_id, number, host, pid, start_utc, end_utc, cause, message, from_step, step, "
+        "INSERT OR REPLACE INTO attempts (case_id, number, host, pid, start_utc, end_utc, cause, message, from_step, "
+        "step, "
         "core_time_s, version, compiler) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         {id, std::int64_t{a.number}, a.host, a.pid, a.start, text_or_null(a.end), std::string(word(a.cause)), a.message,
          integer_or_null(a.from_step), integer_or_null(a.step), a.core_seconds, a.version, a.compiler});
   transaction.commit();
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -18,18 +18,19 @@ std::string_view word(CaseState);
 
 /// One row of `cases`.
 struct CaseEntry {
-  std::string id;                                       // digest of its physics
-  std::string label;                                    // unique within the study
-  bool is_bed = false;                                  // it prepares a bed for cases; column kind: 'bed' or 'case'
-  std::filesystem::path directory;                      // relative to the study's, so that a study can be moved
-  std::string bed;                                      // id of the bed it starts on; empty = none
-  std::string parameters;                               // all of them, JSON
-  std::vector<std::pair<std::string, Value>> columns;   // the main ones, each a column named with its unit: {"diameter_m", 5e-4}
+  std::string id;                    // digest of its physics
+  std::string label;                 // unique within the study
+  bool is_bed = false;               // it prepares a bed for cases; column kind: 'bed' or 'case'
+  std::filesystem::path directory;   // relative to the study's, so that a study can be moved
+  std::string bed;                   // id of the bed it starts on; empty = none
+  std::string parameters;            // all of them, JSON
+  std::vector<std::pair<std::string, Value>>
+      columns;   // the main ones, each a column named with its unit: {"diameter_m", 5e-4}
 
   // kept by the ledger
   CaseState state = CaseState::pending;
-  std::string message;                                  // why it failed or stopped
-  bool in_study = true;                                 // false: dropped from the study file, results kept
+  std::string message;    // why it failed or stopped
+  bool in_study = true;   // false: dropped from the study file, results kept
 };
 
 /// The ledger's rows in order of enrolment, from any database that is open; `columns` is left empty.
@@ -61,4 +62,4 @@ class Ledger {
   std::filesystem::path study_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

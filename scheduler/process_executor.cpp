@@ -54,7 +54,8 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 
 /// What the child does between fork and exec: own session, default signals, nothing to read, its output to the log.
 struct Preparation {
-  explicit Preparation(const fs::path& log) : output(::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)) {
+  explicit Preparation(const fs::path& log)
+      : output(::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)) {
     if (output < 0) throw Error(ErrorKind::io, fmt::format("cannot write {}: {}", log.string(), std::strerror(errno)));
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
@@ -85,7 +86,7 @@ JobEnd end_of(pid_t pid, int status) {
   return WIFSIGNALED(status) ? JobEnd{pid, 0, WTERMSIG(status)} : JobEnd{pid, WEXITSTATUS(status), 0};
 }
 
-}  // namespace
+}   // namespace
 
 ProcessExecutor::ProcessExecutor(std::vector<std::string> command) : command_(std::move(command)) {}
 
@@ -104,9 +105,10 @@ JobId ProcessExecutor::start(const Job& job) {
   const int problem = ::posix_spawnp(&pid, command[0].c_str(), &preparation.actions, &preparation.attributes,
                                      pointers(command).data(), pointers(environment).data());
   if (problem != 0)
-    throw Error(ErrorKind::unavailable, fmt::format("cannot start {} for {}: {}", command[0], job.directory.string(),
-                                                    std::strerror(problem)));
-  const auto descriptor = static_cast<int>(::syscall(SYS_pidfd_open, pid, 0));   // glibc 2.36 declares it without C linkage
+    throw Error(ErrorKind::unavailable,
+                fmt::format("cannot start {} for {}: {}", command[0], job.directory.string(), std::strerror(problem)));
+  const auto descriptor =
+      static_cast<int>(::syscall(SYS_pidfd_open, pid, 0));   // glibc 2.36 declares it without C linkage
   children_[pid] = {descriptor, temporary};   // without pidfds (-1) `wait` sees the end when its time is up
   return pid;
 }
@@ -139,4 +141,4 @@ void ProcessExecutor::kill(JobId job) {
   if (children_.contains(job)) ::kill(-job, SIGKILL);
 }
 
-}  // namespace bedload
+}   // namespace bedload

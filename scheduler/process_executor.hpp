@@ -30,4 +30,4 @@ class ProcessExecutor : public Executor {
   std::map<JobId, Child> children_;   // by process id, which is the job's id
 };
 
-}  // namespace bedload
+}   // namespace bedload

@@ -14,8 +14,8 @@
 namespace bedload {
 namespace {
 
-constexpr double line_every = 60;       // [s], where nothing can be repainted
-constexpr std::size_t most_lines = 16;  // of cases at work, on a terminal
+constexpr double line_every = 60;        // [s], where nothing can be repainted
+constexpr std::size_t most_lines = 16;   // of cases at work, on a terminal
 constexpr int bar_width = 10;
 
 std::string bar(double fraction) {
@@ -29,7 +29,8 @@ std::string position_of(const RunningCase& c) {
 }
 
 std::string line_of(const RunningCase& c) {
-  std::string line = fmt::format("  {:<20} {} {:3.0f} %  {}", c.label, bar(c.fraction), 100 * c.fraction, position_of(c));
+  std::string line =
+      fmt::format("  {:<20} {} {:3.0f} %  {}", c.label, bar(c.fraction), 100 * c.fraction, position_of(c));
   if (c.left >= 0) line += fmt::format(", {} left", duration_text(c.left));
   if (c.silent > line_every) line += fmt::format(", silent for {}", duration_text(c.silent));
   return line;
@@ -40,7 +41,7 @@ std::string cut(std::string line, int width) {
   return line;
 }
 
-}  // namespace
+}   // namespace
 
 std::string duration_text(double seconds) {
   if (seconds < 90) return fmt::format("{:.0f} s", seconds);
@@ -96,7 +97,8 @@ void ProgressPrinter::update(const Progress& p) {
 }
 
 std::string ProgressPrinter::block_of(const Progress& p) const {
-  const std::string total = fmt::format("{} {}", bar(p.cases > 0 ? static_cast<double>(p.done) / p.cases : 0), summary(p));
+  const std::string total =
+      fmt::format("{} {}", bar(p.cases > 0 ? static_cast<double>(p.done) / p.cases : 0), summary(p));
   const bool red = style_.colour && p.failed > 0;
   std::string block = fmt::format("{}{}{}\n", red ? "\x1b[31m" : "", cut(total, style_.width), red ? "\x1b[0m" : "");
   for (std::size_t i = 0; i < std::min(p.running.size(), most_lines); ++i)
@@ -111,4 +113,4 @@ void ProgressPrinter::erase_block() {
   block_.clear();
 }
 
-}  // namespace bedload
+}   // namespace bedload

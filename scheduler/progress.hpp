@@ -11,21 +11,21 @@ namespace bedload {
 /// One case at work.
 struct RunningCase {
   std::string label;
-  std::string phase;             // of its heartbeat; empty before the first
+  std::string phase;   // of its heartbeat; empty before the first
   int hold = 0, holds = 0;
-  double shields = 0;            // [-]
-  double fraction = 0;           // of the planned model time
+  double shields = 0;    // [-]
+  double fraction = 0;   // of the planned model time
   double steps_per_second = 0;
-  double silent = 0;             // since its last heartbeat [s]
-  double left = -1;              // at most, wall seconds; negative = unknown
+  double silent = 0;   // since its last heartbeat [s]
+  double left = -1;    // at most, wall seconds; negative = unknown
 };
 
 struct Progress {
   int cases = 0, done = 0, failed = 0, stopped = 0;   // cases proper, without beds
   int beds = 0, beds_done = 0;                        // those that unfinished cases wait for
   std::vector<RunningCase> running;
-  double elapsed = 0;                                 // since this run began [s]
-  double left = -1;                                   // at most, wall seconds; negative = unknown
+  double elapsed = 0;   // since this run began [s]
+  double left = -1;     // at most, wall seconds; negative = unknown
   bool stopping = false;
 };
 
@@ -73,4 +73,4 @@ std::string summary(const Progress&);
 /// 45 s, 12 min, 3.4 h, 2.1 d
 std::string duration_text(double seconds);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -26,4 +26,4 @@ void clear_request(const std::filesystem::path& directory) {
   std::filesystem::remove(directory / "request", ignored);
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -14,4 +14,4 @@ void write_request(const std::filesystem::path& case_directory, Request);
 std::optional<Request> read_request(const std::filesystem::path& case_directory);
 void clear_request(const std::filesystem::path& case_directory);
 
-}  // namespace bedload
+}   // namespace bedload

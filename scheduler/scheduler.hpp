@@ -70,10 +70,10 @@ class Scheduler {
     JobId job = 0;          // if not adopted
     int attempt = 0;        // the number it is expected to have
     std::optional<Heartbeat> heartbeat;
-    double changed = 0;     // when the heartbeat last changed, on the clock [s]
-    bool alive = false;     // it has changed since this scheduler watches
+    double changed = 0;   // when the heartbeat last changed, on the clock [s]
+    bool alive = false;   // it has changed since this scheduler watches
     std::optional<double> first_fraction;
-    double first_seen = 0;  // when that was, on the clock [s]
+    double first_seen = 0;   // when that was, on the clock [s]
     bool asked = false, silenced = false;
   };
 
@@ -96,6 +96,8 @@ class Scheduler {
   void set_state(Work&, CaseState, const std::string& message = {});
   Work* find(const std::string& id);
   Progress progress();
+  UnfinishedCase pace_of(const Running&) const;
+  RunningCase line_of(const Running&) const;
   RunOutcome outcome() const;
 
   Ledger* ledger_;
@@ -110,4 +112,4 @@ class Scheduler {
   bool stopping_ = false, killed_ = false;
 };
 
-}  // namespace bedload
+}   // namespace bedload

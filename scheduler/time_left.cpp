@@ -29,4 +29,4 @@ double TimeLeft::of_all(const std::vector<UnfinishedCase>& cases, int cores) {
   return std::max(longest, sum / std::max(1, cores));
 }
 
-}  // namespace bedload
+}   // namespace bedload

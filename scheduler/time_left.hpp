@@ -28,4 +28,4 @@ class TimeLeft {
   std::array<double, 2> whole_ = {-1, -1};   // usual wall time of a whole case [0] and bed [1]
 };
 
-}  // namespace bedload
+}   // namespace bedload

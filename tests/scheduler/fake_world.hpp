@@ -21,15 +21,15 @@ namespace bedload {
 
 /// What one attempt does, from its start to its end.
 struct Act {
-  std::uint64_t gains = 0;                    // steps that its last checkpoint lies ahead of where it began
+  std::uint64_t gains = 0;   // steps that its last checkpoint lies ahead of where it began
   bool finishes = false;
-  std::optional<Cause> says;                  // what it writes as the cause; nothing = it dies without a word
-  JobEnd end{};                               // as the system sees it
-  std::uint64_t dies_after = 0;               // steps from its beginning to its last heartbeat
-  double lasts = 10;                          // [s]
+  std::optional<Cause> says;      // what it writes as the cause; nothing = it dies without a word
+  JobEnd end{};                   // as the system sees it
+  std::uint64_t dies_after = 0;   // steps from its beginning to its last heartbeat
+  double lasts = 10;              // [s]
   bool beats = true;
-  bool opens = true;                          // false: it dies before it has opened its attempt
-  bool until_asked = false;                   // works until it is asked to stop
+  bool opens = true;          // false: it dies before it has opened its attempt
+  bool until_asked = false;   // works until it is asked to stop
 
   static Act finish() { return {100, true, Cause::finished}; }
   static Act killed(std::uint64_t gains) { return {gains, false, {}, {0, 0, 9}}; }
@@ -205,4 +205,4 @@ class FakeStudy {
   }
 };
 
-}  // namespace bedload
+}   // namespace bedload

@@ -26,4 +26,4 @@ class TemporaryDirectory {
   std::filesystem::path path_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

@@ -117,5 +117,5 @@ TEST(Requests, StandUntilTheyAreCleared) {
   EXPECT_FALSE(read_request(directory.path()));
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -43,15 +43,17 @@ TEST_F(StudyDatabase, GivesBackWhatWasWritten) {
 TEST_F(StudyDatabase, LetsQueriesReadAndNothingElse) {
   Database(file_, Database::Mode::write).execute("CREATE TABLE t (a INTEGER) STRICT; INSERT INTO t VALUES (1)");
   Database reader(file_, Database::Mode::query);
-  EXPECT_EQ(reader.query("WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 9) "
-                         "SELECT max(i) + (SELECT count(*) FROM t) FROM n").rows[0][0],
+  EXPECT_EQ(reader
+                .query("WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 9) "
+                       "SELECT max(i) + (SELECT count(*) FROM t) FROM n")
+                .rows[0][0],
             Value(std::int64_t{10}));
   const fs::path other = directory_ / "other.db";
-  for (const std::string& sql : {"VACUUM INTO '" + other.string() + "'", "ATTACH '" + other.string() + "' AS o",
-                                 std::string("DELETE FROM t"), std::string("INSERT INTO t VALUES (2)"),
-                                 std::string("DROP TABLE t"), std::string("CREATE TEMP TABLE s (a INTEGER)"),
-                                 std::string("PRAGMA user_version = 7"), std::string("BEGIN IMMEDIATE"),
-                                 std::string("SELECT load_extension('x')")}) {
+  for (const std::string& sql :
+       {"VACUUM INTO '" + other.string() + "'", "ATTACH '" + other.string() + "' AS o", std::string("DELETE FROM t"),
+        std::string("INSERT INTO t VALUES (2)"), std::string("DROP TABLE t"),
+        std::string("CREATE TEMP TABLE s (a INTEGER)"), std::string("PRAGMA user_version = 7"),
+        std::string("BEGIN IMMEDIATE"), std::string("SELECT load_extension('x')")}) {
     EXPECT_EQ(refusal([&] { reader.query(sql); }), ErrorKind::usage) << sql;
     EXPECT_EQ(refusal([&] { reader.execute(sql); }), ErrorKind::usage) << sql;
   }
@@ -102,5 +104,5 @@ TEST_F(StudyDatabase, RollsBackWhatWasNotCommitted) {
   EXPECT_EQ(rows.rows, (std::vector<std::vector<Value>>{{std::int64_t{2}}, {std::int64_t{4}}}));
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

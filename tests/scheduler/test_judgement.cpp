@@ -73,7 +73,8 @@ TEST(Judgement, DoesNotRepeatErrorsOfTheUserOrThePhysics) {
 }
 
 TEST(Judgement, CallsAWallLimitNoFailure) {
-  EXPECT_EQ(judge({100, false}, std::vector<Attempt>(40, attempt(Cause::wall_limit, 100, 100))).verdict, Verdict::again);
+  EXPECT_EQ(judge({100, false}, std::vector<Attempt>(40, attempt(Cause::wall_limit, 100, 100))).verdict,
+            Verdict::again);
 }
 
 TEST(Judgement, SetsAsideWhatTheDiskRefused) {
@@ -87,7 +88,8 @@ TEST(Judgement, GivesMemoryOneMoreChance) {
 }
 
 TEST(Judgement, ReadsACauseFromTheWaitStatus) {
-  for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) EXPECT_EQ(cause_of(JobEnd{1, 0, signal}), Cause::crash);
+  for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL})
+    EXPECT_EQ(cause_of(JobEnd{1, 0, signal}), Cause::crash);
   EXPECT_EQ(cause_of(JobEnd{1, 0, SIGKILL}), Cause::killed);
   EXPECT_EQ(cause_of(JobEnd{1, 137, 0}), Cause::killed);
   EXPECT_EQ(cause_of(JobEnd{1, 65, 0}), Cause::user_error);
@@ -99,5 +101,5 @@ TEST(Judgement, ReadsACauseFromTheWaitStatus) {
   EXPECT_EQ(cause_of(JobEnd{1, 0, 0}), Cause::crash) << "an end without a finished checkpoint is no success";
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -93,5 +93,5 @@ TEST_F(LedgerOfAStudy, ReadsNoCasesFromADatabaseWithoutThem) {
   EXPECT_TRUE(read_cases(empty).empty());
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -115,5 +115,5 @@ TEST_F(Processes, ThatCannotBeStartedAreAnError) {
   EXPECT_EQ(kind_of_failure("/bin/true", directory_ / "nowhere"), ErrorKind::io);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

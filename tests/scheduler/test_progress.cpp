@@ -31,8 +31,9 @@ TEST(ProgressPrinter, WritesOneLineAMinuteIntoALog) {
   printer.event("d0.5mm: started");
   EXPECT_EQ(screen.take(), "d0.5mm: started\n");
   for (screen.now = 0; screen.now < 180; screen.now += 0.5) printer.update(some_progress());
-  EXPECT_EQ(screen.take(), "1 of 4 cases done, 1 at work, at most 2 min left\n"
-                           "1 of 4 cases done, 1 at work, at most 2 min left\n");
+  EXPECT_EQ(screen.take(),
+            "1 of 4 cases done, 1 at work, at most 2 min left\n"
+            "1 of 4 cases done, 1 at work, at most 2 min left\n");
 }
 
 TEST(ProgressPrinter, RepaintsItsBlockBelowTheEventsOnATerminal) {
@@ -82,5 +83,5 @@ TEST(TimeLeft, IsUnknownBeforeAnyCaseHasAPace) {
   EXPECT_DOUBLE_EQ(left.of_all({}, 2), 0);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -311,7 +311,9 @@ TEST(Scheduler, ContinuesAnAdoptedWorkerThatDied) {
   FakeStudy study;
   study.add_case("a");
   Survivor survivor(study.directory_of("a"));
-  study.executor.at_turn = [&] { if (study.executor.now > 1030) survivor.lock.reset(); };
+  study.executor.at_turn = [&] {
+    if (study.executor.now > 1030) survivor.lock.reset();
+  };
   EXPECT_EQ(study.run().exit_code, 0);
   EXPECT_EQ(study.executor.started, Names{"a"});
   EXPECT_EQ(read_attempts(study.directory_of("a"))[0].cause, Cause::killed);
@@ -346,7 +348,8 @@ TEST(Scheduler, WatchesTheOwnerWhenItsOwnWorkerWasFenced) {
   EXPECT_EQ(study.executor.started.size(), 2u);
   const auto attempts = read_attempts(study.directory_of("a"));
   ASSERT_EQ(attempts.size(), 2u);
-  EXPECT_EQ(attempts[0].message, "it died; its scheduler had gone before") << "nobody else wrote into the owner's attempt";
+  EXPECT_EQ(attempts[0].message, "it died; its scheduler had gone before")
+      << "nobody else wrote into the owner's attempt";
   EXPECT_EQ(attempts[1].cause, Cause::finished);
 }
 
@@ -357,7 +360,8 @@ TEST(Scheduler, TakesNoNumberFromAnOwnerThatIsAboutToOpenItsAttempt) {
   study.executor.scripts["a"] = {{0, false, {}, {0, 73, 0}, 0, 5, false, false}, Act::finish()};
   int highest = -1;
   study.executor.at_turn = [&] {
-    if (!rival && study.executor.now > 1002 && study.executor.now < 1030) rival = FileLock::try_lock(study.directory_of("a") / "lock");
+    if (!rival && study.executor.now > 1002 && study.executor.now < 1030)
+      rival = FileLock::try_lock(study.directory_of("a") / "lock");
     if (study.executor.now < 1030) highest = highest_attempt(study.directory_of("a"));
     else rival.reset();
   };
@@ -401,8 +405,10 @@ TEST(Scheduler, RebuildsALostDatabaseFromTheDirectories) {
   study.run();
   const auto rows = [&] {
     return Database(study.study / "study.db", Database::Mode::query)
-        .query("SELECT case_id, state, message, (SELECT group_concat(cause) FROM attempts a WHERE a.case_id = c.case_id) "
-               "FROM cases c ORDER BY position").rows;
+        .query(
+            "SELECT case_id, state, message, (SELECT group_concat(cause) FROM attempts a WHERE a.case_id = c.case_id) "
+            "FROM cases c ORDER BY position")
+        .rows;
   };
   const auto before = rows();
   fs::remove(study.study / "study.db");
@@ -441,5 +447,5 @@ TEST(InterruptCounter, CountsInsteadOfDying) {
   EXPECT_EQ(InterruptCounter::count(), 2);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload
