@@ -112,10 +112,13 @@ class FakeExecutor : public Executor {
     std::uint64_t from = 0, beats = 0;
   };
 
-  static void beat(JobId pid, Playing& p) {
+  void beat(JobId pid, Playing& p) const {
     Heartbeat h;
     h.pid = pid;
     h.step = p.from + ++p.beats;
+    h.phase = "ramp";
+    h.planned_time = p.act.lasts;   // one second of model time per second
+    h.time = now - (p.until - p.act.lasts);
     write_heartbeat(p.directory, h);
   }
 

@@ -427,6 +427,30 @@ TEST(Scheduler, ContinuesACaseWhosePlanWasExtended) {
   EXPECT_EQ(study.harvested, (Names{"a", "a"}));
 }
 
+TEST(Scheduler, TellsHowFarItIsAndHowLongItWillTake) {
+  FakeStudy study;
+  study.options.cores = 1;
+  Act long_one = Act::finish();
+  long_one.lasts = 100;
+  for (const char* id : {"a", "b", "c"}) {
+    study.add_case(id);
+    study.executor.scripts[id] = {long_one};
+  }
+  Progress halfway;
+  study.executor.at_turn = [&] {
+    if (study.executor.now <= 1150) halfway = study.listener.last;   // the second half of b, and c
+  };
+  study.run();
+  EXPECT_EQ(halfway.cases, 3);
+  EXPECT_EQ(halfway.done, 1);
+  ASSERT_EQ(halfway.running.size(), 1u);
+  EXPECT_EQ(halfway.running[0].label, "b");
+  EXPECT_EQ(halfway.running[0].phase, "ramp");
+  EXPECT_NEAR(halfway.running[0].fraction, 0.5, 0.02);
+  EXPECT_NEAR(halfway.running[0].left, 50, 2);
+  EXPECT_NEAR(halfway.left, 150, 2);
+}
+
 TEST(Scheduler, IsTheOnlyOneOfItsStudy) {
   const TemporaryDirectory directory;
   const FileLock lock = lock_study(directory.path());
