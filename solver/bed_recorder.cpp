@@ -30,12 +30,15 @@ double grain_time_of(const Scene& scene) {
   return grain_time(d, s, g, fall);
 }
 
-}  // namespace
+}   // namespace
 
 BedRecorder::BedRecorder(const Scene& scene)
-    : scene_(scene), area_(scene.bed.length.x * scene.bed.length.y),
+    : scene_(scene),
+      area_(scene.bed.length.x * scene.bed.length.y),
       stress_scale_(shields_stress(scene.bed.fluid, scene.bed.grains, norm(scene.bed.gravity))),
-      speed_scale_(speed_scale_of(scene)), surface_grains_(surface_grains(scene)), grain_time_(grain_time_of(scene)),
+      speed_scale_(speed_scale_of(scene)),
+      surface_grains_(surface_grains(scene)),
+      grain_time_(grain_time_of(scene)),
       momentum_of_(scene) {}
 
 void BedRecorder::before_step(State& state) {
@@ -111,7 +114,8 @@ double BedRecorder::measured_shields(const Search& search, const Window& window,
 /// What the momentum of fluid and grains did beyond the forces from outside, in units of a Shields number.
 double BedRecorder::momentum_residual(const Grains& grains, const Window& window, const StreamwiseMomentum& now) const {
   const auto& fixed = grains.fixed;
-  const bool seen = scene_.grid.periodic(0) && scene_.grid.periodic(1) && std::find(fixed.begin(), fixed.end(), 1) == fixed.end();
+  const bool seen =
+      scene_.grid.periodic(0) && scene_.grid.periodic(1) && std::find(fixed.begin(), fixed.end(), 1) == fixed.end();
   if (!seen || stress_scale_ <= 0) return not_known;
   return std::abs(now.total - window.momentum - window.outer_impulse) / (window.duration * area_ * stress_scale_);
 }
@@ -166,7 +170,8 @@ void BedRecorder::close_hold(State& state) {
   const Window& window = search.half;
   const StreamwiseMomentum now = momentum_of_(state, search.bed_height);
   const double scatter = search.block_events_squared - window.events * window.events / search.blocks;
-  const double error_of_events = search.blocks > 1 ? std::sqrt(std::max(0.0, scatter) * search.blocks / (search.blocks - 1)) : 0;
+  const double error_of_events =
+      search.blocks > 1 ? std::sqrt(std::max(0.0, scatter) * search.blocks / (search.blocks - 1)) : 0;
 
   BedRecord::Holds& row = state.record.holds;
   append_bed(scene_, state, row);
@@ -183,7 +188,8 @@ void BedRecorder::close_hold(State& state) {
 }
 
 void BedRecorder::record_profiles_of(State& state, double hold) const {
-  record_profiles(state.grains, state.fluid, scene_.grid, scene_.bed.grains.diameter, state.search.lid_speed, hold, state.record.profiles);
+  record_profiles(state.grains, state.fluid, scene_.grid, scene_.bed.grains.diameter, state.search.lid_speed, hold,
+                  state.record.profiles);
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -32,15 +32,15 @@ class BedRecorder {
   double momentum_residual(const Grains&, const Window&, const StreamwiseMomentum& now) const;
 
   const Scene scene_;
-  const double area_;            // of the box, seen from above [m2]
-  const double stress_scale_;    // (rho_p - rho_f) g d [Pa]
-  const double speed_scale_;     // sqrt((s-1) g d) [m/s]
-  const double surface_grains_;  // N_s [-]
-  const double grain_time_;      // t_d [s]
+  const double area_;             // of the box, seen from above [m2]
+  const double stress_scale_;     // (rho_p - rho_f) g d [Pa]
+  const double speed_scale_;      // sqrt((s-1) g d) [m/s]
+  const double surface_grains_;   // N_s [-]
+  const double grain_time_;       // t_d [s]
 
   MixtureMomentum momentum_of_;
   std::vector<double> x_before_;
-  bool in_last_half_ = false;    // the step under way; set by before_step
+  bool in_last_half_ = false;   // the step under way; set by before_step
 };
 
-}  // namespace bedload
+}   // namespace bedload

@@ -20,7 +20,9 @@ struct Experiment::Parts {
   BedRecorder recorder;
   std::unique_ptr<BedPacking> packing;
 
-  bool ramp_over(const State& state) const { return ramp_is_over(state.record, scene.onset, scene.drive.levels.size()); }
+  bool ramp_over(const State& state) const {
+    return ramp_is_over(state.record, scene.onset, scene.drive.levels.size());
+  }
   void start_ramp(State&) const;
   StepHealth pack(State&);
   StepHealth hold(State&);
@@ -127,7 +129,8 @@ void Experiment::Parts::begin_hold(State& state) const {
 
 void Experiment::Parts::add_steady_flow(State& state, const ImposedFlow& change) const {
   const StaggeredGrid& grid = scene.grid;
-  if (!grid.periodic(0) || grid.periodic(2)) return;   // between end walls, or without bottom and top, the flow is not this one
+  if (!grid.periodic(0) || grid.periodic(2))
+    return;   // between end walls, or without bottom and top, the flow is not this one
   for (int k = 0; k < grid.cells[2]; ++k) {
     const double more = steady_increment(scene, change, state.search.bed_height, (k + 0.5) * grid.h.z);
     for (int i = 0; i < grid.cells[0]; ++i)
@@ -135,4 +138,4 @@ void Experiment::Parts::add_steady_flow(State& state, const ImposedFlow& change)
   }
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -35,4 +35,4 @@ class Experiment {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

@@ -33,4 +33,4 @@ StreamwiseMomentum MixtureMomentum::operator()(const State& state, double level)
   return sum;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -27,4 +27,4 @@ class MixtureMomentum {
   VoidFraction void_fraction_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

@@ -45,7 +45,7 @@ std::vector<std::size_t> slice(const Grains& grains, double depth) {
   return order;
 }
 
-}  // namespace
+}   // namespace
 
 std::string bed_picture(const BedView& view, double width) {
   const double scale = width / view.length.x, height = view.length.z * scale;   // [px/m]
@@ -60,16 +60,18 @@ std::string bed_picture(const BedView& view, double width) {
     for (const double image : {0.0, view.length.x, -view.length.x}) {   // a grain across the seam shows at both ends
       const double x = at.x + image;
       if (x + radius <= 0 || x - radius >= view.length.x) continue;
-      circles += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{:.2f}' fill='{}' stroke='{}'/>", x * scale, height - at.z * scale,
-                             radius * scale, hex(seen), hex(0.72 * seen));
+      circles += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{:.2f}' fill='{}' stroke='{}'/>", x * scale,
+                             height - at.z * scale, radius * scale, hex(seen), hex(0.72 * seen));
     }
   }
   const double bar = 5 * view.diameter * scale;
   return fmt::format(
       "<svg class='bed' viewBox='-1 -1 {0:.0f} {1:.0f}' width='{0:.0f}' height='{1:.0f}' role='img'>"
-      "<rect width='{2:.1f}' height='{3:.1f}' fill='#eef5f9'/><svg width='{2:.1f}' height='{3:.1f}' overflow='hidden' stroke-width='0.7'>{4}</svg>"
+      "<rect width='{2:.1f}' height='{3:.1f}' fill='#eef5f9'/><svg width='{2:.1f}' height='{3:.1f}' overflow='hidden' "
+      "stroke-width='0.7'>{4}</svg>"
       "<rect width='{2:.1f}' height='{3:.1f}' fill='none' stroke='#8a97a0'/>"
-      "<path d='M14 20h40m-7 -4l7 4l-7 4' stroke='#4a6b80' stroke-width='1.6' fill='none'/><text x='62' y='24' fill='#4a6b80'>flow</text>"
+      "<path d='M14 20h40m-7 -4l7 4l-7 4' stroke='#4a6b80' stroke-width='1.6' fill='none'/><text x='62' y='24' "
+      "fill='#4a6b80'>flow</text>"
       "<path d='M{5:.1f} 16v8m0 -4h{6:.1f}m0 -4v8' stroke='#555' stroke-width='1.3' fill='none'/>"
       "<text x='{7:.1f}' y='38' text-anchor='middle'>5 d</text></svg>",
       width + 2, height + 2, width, height, circles, width - 14 - bar, bar, width - 14 - bar / 2);
@@ -77,16 +79,19 @@ std::string bed_picture(const BedView& view, double width) {
 
 std::string speed_scale_bar() {
   std::string stops, ticks;
-  for (int n = 0; n <= 8; ++n) stops += fmt::format("<stop offset='{}' stop-color='{}'/>", n / 8.0, hex(colour_at(n / 8.0)));
+  for (int n = 0; n <= 8; ++n)
+    stops += fmt::format("<stop offset='{}' stop-color='{}'/>", n / 8.0, hex(colour_at(n / 8.0)));
   constexpr std::array<std::string_view, 5> labels{"≤ 10⁻⁴", "10⁻³", "10⁻²", "0.1", "≥ 1"};
   for (std::size_t n = 0; n < labels.size(); ++n)
-    ticks += fmt::format("<path d='M{0:.1f} 14v5' stroke='#555'/><text x='{0:.1f}' y='31' text-anchor='middle'>{1}</text>",
-                         24 + 65.0 * double(n), labels[n]);
+    ticks +=
+        fmt::format("<path d='M{0:.1f} 14v5' stroke='#555'/><text x='{0:.1f}' y='31' text-anchor='middle'>{1}</text>",
+                    24 + 65.0 * double(n), labels[n]);
   return fmt::format(
-      "<svg class='bed' viewBox='0 0 560 36' width='560' height='36'><defs><linearGradient id='speed'>{}</linearGradient></defs>"
+      "<svg class='bed' viewBox='0 0 560 36' width='560' height='36'><defs><linearGradient "
+      "id='speed'>{}</linearGradient></defs>"
       "<rect x='24' y='2' width='260' height='12' fill='url(#speed)' stroke='#999' stroke-width='0.6'/>{}"
       "<text x='320' y='13'>grain speed / √((s − 1) g d)</text></svg>",
       stops, ticks);
 }
 
-}  // namespace bedload
+}   // namespace bedload

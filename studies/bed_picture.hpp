@@ -14,4 +14,4 @@ std::string bed_picture(const BedView&, double width);
 /// The colours of the picture, as a bar with its scale: speed/sqrt((s-1) g d), four decades.
 std::string speed_scale_bar();
 
-}  // namespace bedload
+}   // namespace bedload

@@ -32,4 +32,4 @@ inline std::string in_study(const Database& database) {
   return has_table(database, "cases") ? "case_id IN (SELECT case_id FROM cases WHERE in_study)" : "1";
 }
 
-}  // namespace bedload
+}   // namespace bedload

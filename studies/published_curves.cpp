@@ -51,9 +51,9 @@ constexpr std::array<PublishedCurve, 6> curves{{
     {"van Rijn 1984", "van Rijn 1984, J. Hydraul. Eng. 110, 1431", van_rijn},
 }};
 
-}  // namespace
+}   // namespace
 
 std::span<const PublishedCurve> published_curves() { return curves; }
 std::span<const PublishedCurve> curves_for_tables() { return std::span(curves).first(3); }
 
-}  // namespace bedload
+}   // namespace bedload

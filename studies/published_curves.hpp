@@ -27,4 +27,4 @@ struct LaminarBand {
 };
 inline constexpr LaminarBand laminar_band{0.12, 0.03, "Charru et al. 2004, Ouriemi et al. 2007"};
 
-}  // namespace bedload
+}   // namespace bedload

@@ -8,84 +8,49 @@
 
 #include "studies/bed_picture.hpp"
 #include "studies/database_values.hpp"
+#include "studies/html_table.hpp"
 #include "studies/published_curves.hpp"
 #include "studies/report_figures.hpp"
+#include "studies/report_style.hpp"
 #include "studies/svg_plot.hpp"
 
 namespace bedload {
 
 namespace {
 
-constexpr std::string_view style = R"css(
-:root { color-scheme: light; }
-body { margin: 0; background: #f4f6f7; color: #22292e; font: 15px/1.55 system-ui, -apple-system, "Segoe UI", "Liberation Sans", "DejaVu Sans", sans-serif; }
-main { max-width: 1020px; margin: 0 auto; padding: 28px 24px 64px; }
-header h1 { font-size: 27px; margin: 0 0 2px; letter-spacing: -0.01em; }
-header p { margin: 0; color: #5b6770; }
-section { background: #fff; border: 1px solid #e0e5e8; border-radius: 8px; padding: 18px 24px 20px; margin-top: 20px; }
-h2 { font-size: 18px; margin: 0 0 4px; }
-h3 { font-size: 14px; margin: 14px 0 4px; }
-.moment { font-weight: 400; color: #5b6770; }
-sub { line-height: 0; }
-p.caption { margin: 0 0 12px; color: #5b6770; font-size: 13.5px; max-width: 92ch; }
-.row { display: flex; flex-wrap: wrap; gap: 8px 22px; }
-svg { display: block; max-width: 100%; height: auto; font-size: 12px; font-family: inherit; fill: #333; }
-svg .grid { stroke: #dfe4e7; stroke-width: 1; } svg .fine { stroke: #eff2f3; stroke-width: 1; }
-svg .frame { fill: none; stroke: #7d8890; } svg .axis { font-size: 13px; fill: #22292e; }
-svg .heading { font-weight: 600; fill: #22292e; } svg .note { font-size: 12px; }
-table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabular-nums; width: 100%; }
-th { text-align: left; font-weight: 600; color: #5b6770; border-bottom: 1px solid #c6ced3; padding: 4px 14px 4px 0; vertical-align: bottom; }
-td { border-bottom: 1px solid #edf0f2; padding: 4px 14px 4px 0; vertical-align: top; }
-td.n, th.n { text-align: right; }
-.tag { display: inline-block; white-space: nowrap; border-radius: 4px; padding: 0 7px; font-size: 12.5px; background: #e8edf0; color: #44515a; }
-.tag.good { background: #dff1e8; color: #11633f; } .tag.open { background: #fdf0d5; color: #7a5200; }
-code, pre { font-family: ui-monospace, "Liberation Mono", "DejaVu Sans Mono", monospace; font-size: 13px; }
-pre { background: #f4f6f7; border: 1px solid #e0e5e8; border-radius: 6px; padding: 9px 12px; margin: 6px 0 10px; overflow-x: auto; }
-td code { word-break: break-all; font-size: 12px; color: #5b6770; }
-@media print { body { background: #fff; } section { break-inside: avoid; border: 0; padding: 0; } }
-)css";
-
 std::string section(std::string_view title, std::string_view caption, std::string_view body) {
   if (body.empty()) return {};
   return fmt::format("<section><h2>{}</h2>\n<p class='caption'>{}</p>\n{}</section>\n", title, caption, body);
 }
 
-std::string cell(std::string_view text) { return fmt::format("<td>{}</td>", escaped(text)); }
-std::string number_cell(std::string_view text) { return fmt::format("<td class='n'>{}</td>", escaped(text)); }
-std::string number_cell(double number, std::string_view format = "{:.4g}") {
-  return number_cell(std::isfinite(number) ? fmt::format(fmt::runtime(format), number) : std::string("–"));
-}
-
-std::string header_row(const std::vector<std::string>& names, std::size_t first_number, std::size_t last_number) {
-  std::string row = "<tr>";
-  for (std::size_t n = 0; n < names.size(); ++n)
-    row += fmt::format("<th{}>{}</th>", n >= first_number && n <= last_number ? " class='n'" : "", escaped(names[n]));
-  return row + "</tr>\n";
-}
-
-std::string table(std::string_view rows) { return fmt::format("<table>{}</table>\n", rows); }
-
 std::string status_tag(const std::string& status) {
   std::string words = status;
   std::replace(words.begin(), words.end(), '_', ' ');
-  return fmt::format("<td><span class='tag {}'>{}</span></td>", status == "bracketed" ? "good" : "open", escaped(words));
+  return fmt::format("<td><span class='tag {}'>{}</span></td>", status == "bracketed" ? "good" : "open",
+                     escaped(words));
 }
 
 std::string curve_table(const std::vector<ThresholdPoint>& curve) {
-  std::string rows = header_row({"scene", "d [mm]", "s [–]", "ν [mm²/s]", "Ga [–]", "Re* [–]", "θc [–]", "lower", "upper", "Soulsby", "seeds", "status"}, 1, 10);
+  std::string rows = header_row({"scene", "d [mm]", "s [–]", "ν [mm²/s]", "Ga [–]", "Re* [–]", "θc [–]", "lower",
+                                 "upper", "Soulsby", "seeds", "status"},
+                                1, 10);
   for (const ThresholdPoint& p : curve)
-    rows += "<tr>" + cell(p.label) + number_cell(p.diameter * 1e3) + number_cell(p.density_ratio) + number_cell(p.viscosity * 1e6) +
-            number_cell(p.galileo, "{:.3g}") + number_cell(p.reynolds, "{:.3g}") + number_cell(p.shields, "{:.4f}") +
-            number_cell(p.lower, "{:.4f}") + number_cell(p.upper, "{:.4f}") + number_cell(published_curves()[0].shields(p.galileo), "{:.3f}") +
-            number_cell(fmt::format("{}", p.seeds)) + status_tag(p.status) + "</tr>\n";
-  return table(rows);
+    rows += "<tr>" + text_cell(p.label) + number_cell(p.diameter * 1e3) + number_cell(p.density_ratio) +
+            number_cell(p.viscosity * 1e6) + number_cell(p.galileo, "{:.3g}") + number_cell(p.reynolds, "{:.3g}") +
+            number_cell(p.shields, "{:.4f}") + number_cell(p.lower, "{:.4f}") + number_cell(p.upper, "{:.4f}") +
+            number_cell(published_curves()[0].shields(p.galileo), "{:.3f}") + number_cell(fmt::format("{}", p.seeds)) +
+            status_tag(p.status) + "</tr>\n";
+  return html_table(rows);
 }
 
 std::string threshold_section(const std::vector<ThresholdPoint>& curve) {
-  const std::string body = curve.empty() ? threshold_figure(curve) + "<p>No case has finished yet.</p>" : threshold_figure(curve) + curve_table(curve);
+  const std::string body = curve.empty() ? threshold_figure(curve) + "<p>No case has finished yet.</p>"
+                                         : threshold_figure(curve) + curve_table(curve);
   return section("Threshold of motion",
-                 "θc = τ<sub>b</sub>/((ρ<sub>p</sub> − ρ<sub>f</sub>) g d) at which the bed begins to move: median over the packing seeds, bars from the lowest "
-                 "to the highest bound of any seed. Open markers with an arrow are one-sided bounds. The published curves are fits to turbulent flow; "
+                 "θc = τ<sub>b</sub>/((ρ<sub>p</sub> − ρ<sub>f</sub>) g d) at which the bed begins to move: median "
+                 "over the packing seeds, bars from the lowest "
+                 "to the highest bound of any seed. Open markers with an arrow are one-sided bounds. The published "
+                 "curves are fits to turbulent flow; "
                  "a laminar model that knows drag alone is expected near the laminar band or above it, not on them.",
                  body);
 }
@@ -103,13 +68,16 @@ std::string for_each_case(const std::vector<FinishedCase>& cases, Figure&& figur
 
 std::string ramp_section(const Database& database, const std::vector<FinishedCase>& cases) {
   return section("Ramps",
-                 "Events are passages of half a diameter downstream, counted per surface grain and grain time: one point per hold, over its last half; bars are standard errors. Filled: at or above the onset criterion (dashed); grey: no event was counted. "
+                 "Events are passages of half a diameter downstream, counted per surface grain and grain time: one "
+                 "point per hold, over its last half; bars are standard errors. Filled: at or above the onset "
+                 "criterion (dashed); grey: no event was counted. "
                  "The shaded strip is the bracket of the threshold.",
                  for_each_case(cases, [&](const FinishedCase& of) { return ramp_figure(database, of); }));
 }
 
 std::string history_section(const Database& database, const std::vector<FinishedCase>& cases) {
-  return section("Motion in time", "Grains faster than 0.01 √((s − 1) g d), per surface grain. Every other hold of the ramp is shaded.",
+  return section("Motion in time",
+                 "Grains faster than 0.01 √((s − 1) g d), per surface grain. Every other hold of the ramp is shaded.",
                  for_each_case(cases, [&](const FinishedCase& of) { return history_figure(database, of); }));
 }
 
@@ -117,13 +85,19 @@ std::string bed_section(const std::vector<BedView>& beds) {
   if (beds.empty()) return {};
   std::string pictures;
   for (const BedView& bed : beds)
-    pictures += fmt::format("<div><h3>{} <span class='moment'>{}</span></h3>{}</div>\n", escaped(bed.label), escaped(bed.moment), bed_picture(bed, 468));
+    pictures += fmt::format("<div><h3>{} <span class='moment'>{}</span></h3>{}</div>\n", escaped(bed.label),
+                            escaped(bed.moment), bed_picture(bed, 468));
   const std::string body = speed_scale_bar() + "<div class='row'>" + pictures + "</div>\n";
-  return section("The bed", "Side view of the newest checkpoint: the grains of the front five diameters, farther ones paler, coloured by speed.", body);
+  return section("The bed",
+                 "Side view of the newest checkpoint: the grains of the front five diameters, farther ones paler, "
+                 "coloured by speed.",
+                 body);
 }
 
 std::string profile_section(const Database& database, const std::vector<FinishedCase>& cases) {
-  return section("Profiles", "Means over x and y: porosity of the settled bed and at the end of the ramp; velocity of fluid and grains at the end of the ramp.",
+  return section("Profiles",
+                 "Means over x and y: porosity of the settled bed and at the end of the ramp; velocity of fluid and "
+                 "grains at the end of the ramp.",
                  for_each_case(cases, [&](const FinishedCase& of) {
                    const std::string drawn = porosity_figure(database, of) + velocity_figure(database, of);
                    return drawn.empty() ? drawn : "<div class='row'>" + drawn + "</div>";
@@ -135,7 +109,8 @@ std::string model_section(const Database& database) {
   if (!has_table(database, "models")) return {};
   const Rows found = database.query(
       fmt::format("SELECT term, is_on, is_wanted, min(ratio), max(ratio), min(reason), count(*) FROM models WHERE {} "
-                  "GROUP BY term, is_on, is_wanted ORDER BY min(position), is_on DESC", in_study(database)));
+                  "GROUP BY term, is_on, is_wanted ORDER BY min(position), is_on DESC",
+                  in_study(database)));
   if (found.rows.empty()) return {};
   std::string rows = header_row({"term", "", "deciding number", "cases", "reason (of one of the cases)"}, 2, 3);
   for (const auto& row : found.rows) {
@@ -143,49 +118,74 @@ std::string model_section(const Database& database) {
     const double low = number_in(row[3]), high = number_in(row[4]);
     std::string term = text_in(row[0]);
     std::replace(term.begin(), term.end(), '_', ' ');
-    rows += "<tr>" + cell(term) + fmt::format("<td><span class='tag {}'>{}</span></td>", on ? "good" : wanted ? "open" : "", on ? "on" : wanted ? "off, wanted" : "off") +
-            number_cell(!std::isfinite(low) ? "–" : low == high ? fmt::format("{:.3g}", low) : fmt::format("{:.3g} … {:.3g}", low, high)) +
-            number_cell(number_in(row[6]), "{:.0f}") + cell(text_in(row[5])) + "</tr>\n";
+    rows += "<tr>" + text_cell(term) +
+            fmt::format("<td><span class='tag {}'>{}</span></td>",
+                        on       ? "good"
+                        : wanted ? "open"
+                                 : "",
+                        on       ? "on"
+                        : wanted ? "off, wanted"
+                                 : "off") +
+            number_cell(!std::isfinite(low) ? "–"
+                        : low == high       ? fmt::format("{:.3g}", low)
+                                            : fmt::format("{:.3g} … {:.3g}", low, high)) +
+            number_cell(number_in(row[6]), "{:.0f}") + text_cell(text_in(row[5])) + "</tr>\n";
   }
-  return section("Models and why", "Which terms the scenes require, the number that decided, and what leaving a term out costs.", table(rows));
+  return section("Models and why",
+                 "Which terms the scenes require, the number that decided, and what leaving a term out costs.",
+                 html_table(rows));
 }
 
 std::string health_section(const Database& database) {
   if (!has_table(database, "attempts")) return {};
-  const Rows found = database.query("SELECT cause, count(*), sum(core_time_s) FROM attempts GROUP BY cause ORDER BY cause");
+  const Rows found =
+      database.query("SELECT cause, count(*), sum(core_time_s) FROM attempts GROUP BY cause ORDER BY cause");
   if (found.rows.empty()) return {};
   std::string rows = header_row({"attempts that ended by", "count", "core hours"}, 1, 2);
   for (const auto& row : found.rows) {
     std::string cause = text_in(row[0]);
     std::replace(cause.begin(), cause.end(), '_', ' ');
-    rows += "<tr>" + cell(cause) + number_cell(number_in(row[1]), "{:.0f}") + number_cell(number_in(row[2]) / 3600, "{:.3g}") + "</tr>\n";
+    rows += "<tr>" + text_cell(cause) + number_cell(number_in(row[1]), "{:.0f}") +
+            number_cell(number_in(row[2]) / 3600, "{:.3g}") + "</tr>\n";
   }
-  return section("Run health", "Every attempt at every case, by the cause of its end. Work after the last checkpoint of an attempt is done again by the next.", table(rows));
+  return section("Run health",
+                 "Every attempt at every case, by the cause of its end. Work after the last checkpoint of an attempt "
+                 "is done again by the next.",
+                 html_table(rows));
 }
 
 std::string provenance_section(const Database& database, const ReportRequest& request) {
   std::string body = "<pre>" + escaped(request.command) + "</pre>\n";
   if (has_table(database, "provenance")) {
-    const Rows builds = database.query(
-        fmt::format("SELECT version, physics_version, compiler, flags, libraries, host, count(*) FROM provenance WHERE {} "
-                    "GROUP BY 1, 2, 3, 4, 5, 6 ORDER BY 1, 2, 3, 4, 5, 6", in_study(database)));
+    const Rows builds = database.query(fmt::format(
+        "SELECT version, physics_version, compiler, flags, libraries, host, count(*) FROM provenance WHERE {} "
+        "GROUP BY 1, 2, 3, 4, 5, 6 ORDER BY 1, 2, 3, 4, 5, 6",
+        in_study(database)));
     std::string rows = header_row({"version", "physics", "compiler", "flags", "libraries", "host", "cases"}, 99, 0);
     for (const auto& row : builds.rows) {
       rows += "<tr>";
-      for (std::size_t n = 0; n < row.size(); ++n) rows += n == 1 || n == 6 ? cell(fmt::format("{:.0f}", number_in(row[n]))) : cell(text_in(row[n]));
+      for (std::size_t n = 0; n < row.size(); ++n)
+        rows += n == 1 || n == 6 ? text_cell(fmt::format("{:.0f}", number_in(row[n]))) : text_cell(text_in(row[n]));
       rows += "</tr>\n";
     }
-    if (!builds.rows.empty()) body += table(rows);
-    const Rows digests = database.query(
-        fmt::format("SELECT label, p.seed, case_id, state_digest FROM provenance p JOIN scenes USING (case_id) WHERE {} ORDER BY label", in_study(database)));
+    if (!builds.rows.empty()) body += html_table(rows);
+    const Rows digests =
+        database.query(fmt::format("SELECT label, p.seed, case_id, state_digest FROM provenance p JOIN scenes USING "
+                                   "(case_id) WHERE {} ORDER BY label",
+                                   in_study(database)));
     std::string states = header_row({"case", "seed", "id", "SHA-256 of the final state"}, 99, 0);
     for (const auto& row : digests.rows)
-      states += "<tr>" + cell(text_in(row[0])) + cell(fmt::format("{:.0f}", number_in(row[1]))) + "<td><code>" + escaped(text_in(row[2]).substr(0, 12)) +
-                "</code></td><td><code>" + escaped(text_in(row[3])) + "</code></td></tr>\n";
-    if (!digests.rows.empty()) body += "<h3>Final states</h3>" + table(states);
+      states += "<tr>" + text_cell(text_in(row[0])) + text_cell(fmt::format("{:.0f}", number_in(row[1]))) +
+                "<td><code>" + escaped(text_in(row[2]).substr(0, 12)) + "</code></td><td><code>" +
+                escaped(text_in(row[3])) + "</code></td></tr>\n";
+    if (!digests.rows.empty()) body += "<h3>Final states</h3>" + html_table(states);
   }
-  return section("Provenance", "The same study gives the same bits. This command makes the page again from the study; the tables behind every figure are "
-                 "<code>threshold_curve</code>, <code>ramp_points</code>, <code>samples</code> and <code>bed_statistics</code>.", body);
+  return section(
+      "Provenance",
+      "The same study gives the same bits. This command makes the page again from the study; the tables behind every "
+      "figure are "
+      "<code>threshold_curve</code>, <code>ramp_points</code>, <code>samples</code> and <code>bed_statistics</code>.",
+      body);
 }
 
 std::string summary(const std::vector<ThresholdPoint>& curve, std::size_t cases) {
@@ -193,21 +193,26 @@ std::string summary(const std::vector<ThresholdPoint>& curve, std::size_t cases)
   double low = NAN, high = NAN;
   for (const ThresholdPoint& p : curve) low = std::fmin(low, p.shields), high = std::fmax(high, p.shields);
   const std::string range = std::isfinite(low) ? fmt::format(", θc from {:.3f} to {:.3f}", low, high) : "";
-  return fmt::format("{} parameter set{}, {} finished case{}{}", curve.size(), curve.size() == 1 ? "" : "s", cases, cases == 1 ? "" : "s", range);
+  return fmt::format("{} parameter set{}, {} finished case{}{}", curve.size(), curve.size() == 1 ? "" : "s", cases,
+                     cases == 1 ? "" : "s", range);
 }
 
-}  // namespace
+}   // namespace
 
 std::string report_html(const Database& database, const ReportRequest& request) {
   const std::vector<ThresholdPoint> curve = threshold_curve(database);
   const std::vector<FinishedCase> cases = finished_cases(database);
   const std::string title = escaped(request.study);
-  return fmt::format("<!doctype html>\n<html lang='en'><head><meta charset='utf-8'><meta name='viewport' content='width=device-width'>"
-                     "<title>{0} – bedload</title><style>{1}</style></head>\n<body><main>\n<header><h1>{0}</h1><p>{2}{3}{4}</p></header>\n",
-                     title, style, summary(curve, cases.size()), request.written.empty() ? "" : " · ", escaped(request.written)) +
-         threshold_section(curve) + ramp_section(database, cases) + bed_section(request.beds) + history_section(database, cases) +
-         profile_section(database, cases) + model_section(database) + health_section(database) + provenance_section(database, request) +
-         "</main></body></html>\n";
+  return fmt::format(
+             "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'><meta name='viewport' "
+             "content='width=device-width'>"
+             "<title>{0} – "
+             "bedload</title><style>{1}</style></head>\n<body><main>\n<header><h1>{0}</h1><p>{2}{3}{4}</p></header>\n",
+             title, report_style, summary(curve, cases.size()), request.written.empty() ? "" : " · ",
+             escaped(request.written)) +
+         threshold_section(curve) + ramp_section(database, cases) + bed_section(request.beds) +
+         history_section(database, cases) + profile_section(database, cases) + model_section(database) +
+         health_section(database) + provenance_section(database, request) + "</main></body></html>\n";
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -18,8 +18,12 @@ namespace {
 
 constexpr std::array<std::string_view, 6> palette{"#0072b2", "#d55e00", "#009e73", "#aa4499", "#b8860b", "#333333"};
 constexpr std::array<Marker, 4> shapes{Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
-constexpr std::array<Stroke, 6> published_strokes{{{"#5b6770", 1.8, ""}, {"#5b6770", 1.6, "7 3"}, {"#5b6770", 1.6, "2 3"},
-                                                   {"#a3adb5", 1.8, ""}, {"#a3adb5", 1.6, "7 3"}, {"#a3adb5", 1.6, "2 3"}}};
+constexpr std::array<Stroke, 6> published_strokes{{{"#5b6770", 1.8, ""},
+                                                   {"#5b6770", 1.6, "7 3"},
+                                                   {"#5b6770", 1.6, "2 3"},
+                                                   {"#a3adb5", 1.8, ""},
+                                                   {"#a3adb5", 1.6, "7 3"},
+                                                   {"#a3adb5", 1.6, "2 3"}}};
 constexpr std::string_view ours = "#0072b2", other = "#d55e00", still = "#9aa5ad", band = "#c9a227";
 constexpr double small_width = 472, small_height = 300;
 
@@ -52,11 +56,13 @@ void draw_published(SvgPlot& plot, double low, double high) {
 
 void draw_point(SvgPlot& plot, const ThresholdPoint& p, Marker shape, std::string_view colour) {
   const auto about = [&](std::string_view value) {
-    return fmt::format("{}: theta_c {} at Re* = {:.3g}, {} ({} seed{})", p.label, value, p.reynolds, p.status, p.seeds, p.seeds == 1 ? "" : "s");
+    return fmt::format("{}: theta_c {} at Re* = {:.3g}, {} ({} seed{})", p.label, value, p.reynolds, p.status, p.seeds,
+                       p.seeds == 1 ? "" : "s");
   };
   if (std::isfinite(p.shields)) {
     if (std::isfinite(p.lower) && std::isfinite(p.upper)) plot.vertical_bar(p.reynolds, p.lower, p.upper, colour);
-    plot.marker({p.reynolds, p.shields}, shape, colour, true, about(fmt::format("= {:.4f}, between {:.4f} and {:.4f}", p.shields, p.lower, p.upper)));
+    plot.marker({p.reynolds, p.shields}, shape, colour, true,
+                about(fmt::format("= {:.4f}, between {:.4f} and {:.4f}", p.shields, p.lower, p.upper)));
     return;
   }
   const bool above = std::isfinite(p.lower);
@@ -65,11 +71,13 @@ void draw_point(SvgPlot& plot, const ThresholdPoint& p, Marker shape, std::strin
   plot.marker({p.reynolds, bound}, shape, colour, false, about(fmt::format("{} {:.4f}", above ? ">" : "<", bound)));
 }
 
-}  // namespace
+}   // namespace
 
 std::string threshold_figure(const std::vector<ThresholdPoint>& curve) {
-  SvgPlot plot(940, 520, {"Re* = u* d/ν  [–]", 0.1, 1000, true}, {"Shields number at onset θc  [–]", 0.01, 1, true}, 210);
-  plot.shade({0.1, laminar_band.shields - laminar_band.half_width}, {5, laminar_band.shields + laminar_band.half_width}, band, 0.25);
+  SvgPlot plot(940, 520, {"Re* = u* d/ν  [–]", 0.1, 1000, true}, {"Shields number at onset θc  [–]", 0.01, 1, true},
+               210);
+  plot.shade({0.1, laminar_band.shields - laminar_band.half_width}, {5, laminar_band.shields + laminar_band.half_width},
+             band, 0.25);
   const auto diameters = distinct_values(curve, &ThresholdPoint::diameter);
   const auto densities = distinct_values(curve, &ThresholdPoint::density_ratio);
   const auto colour_of = [&](double d) { return palette[rank_among(diameters, d) % palette.size()]; };
@@ -78,7 +86,8 @@ std::string threshold_figure(const std::vector<ThresholdPoint>& curve) {
     plot.legend_heading("this study");
     for (const double d : diameters)
       for (const double s : densities)
-        if (std::any_of(curve.begin(), curve.end(), [&](const ThresholdPoint& p) { return p.diameter == d && p.density_ratio == s; }))
+        if (std::any_of(curve.begin(), curve.end(),
+                        [&](const ThresholdPoint& p) { return p.diameter == d && p.density_ratio == s; }))
           plot.legend_marker(fmt::format("d = {:.4g} mm, s = {:.4g}", d * 1e3, s), shape_of(s), colour_of(d), true);
   }
   plot.legend_heading("laminar beds, measured");
@@ -91,9 +100,10 @@ std::string threshold_figure(const std::vector<ThresholdPoint>& curve) {
 std::vector<FinishedCase> finished_cases(const Database& database) {
   std::vector<FinishedCase> cases;
   if (!has_table(database, "scenes")) return cases;
-  const Rows found = database.query(
-      fmt::format("SELECT case_id, label, diameter_m FROM scenes WHERE {} ORDER BY diameter_m, density_ratio, viscosity_m2_per_s, parameter_set, seed",
-                  in_study(database)));
+  const Rows found =
+      database.query(fmt::format("SELECT case_id, label, diameter_m FROM scenes WHERE {} ORDER BY diameter_m, "
+                                 "density_ratio, viscosity_m2_per_s, parameter_set, seed",
+                                 in_study(database)));
   for (const auto& row : found.rows) cases.push_back({text_in(row[0]), text_in(row[1]), number_in(row[2])});
   return cases;
 }
@@ -107,18 +117,22 @@ struct Onsets {
 
 Onsets onset_of(const Database& database, const std::string& id) {
   const Rows found = database.query(
-      "SELECT value, shields, shields_lower, shields_upper, criterion FROM thresholds WHERE case_id = ? AND decides = 1", {id});
+      "SELECT value, shields, shields_lower, shields_upper, criterion FROM thresholds WHERE case_id = ? AND decides = "
+      "1",
+      {id});
   if (found.rows.empty()) return {};
   const auto& row = found.rows[0];
   return {number_in(row[0]), number_in(row[1]), number_in(row[2]), number_in(row[3]),
           text_in(row[4]) == "flux" ? "event_flux" : "moving_fraction"};
 }
 
-}  // namespace
+}   // namespace
 
 std::string ramp_figure(const Database& database, const FinishedCase& of) {
   const Onsets onset = onset_of(database, of.id);
-  const Rows holds = database.query("SELECT shields, event_flux, event_flux_error, moving_fraction FROM ramp_points WHERE case_id = ? ORDER BY hold", {of.id});
+  const Rows holds = database.query(
+      "SELECT shields, event_flux, event_flux_error, moving_fraction FROM ramp_points WHERE case_id = ? ORDER BY hold",
+      {of.id});
   if (holds.rows.empty()) return {};
   double low = 1e9, high = 0;
   for (const auto& row : holds.rows) low = std::min(low, number_in(row[0])), high = std::max(high, number_in(row[0]));
@@ -126,10 +140,12 @@ std::string ramp_figure(const Database& database, const FinishedCase& of) {
   constexpr double least = 1e-4, most = 10;   // what is still stands on the lower edge
   SvgPlot plot(small_width, small_height, {"measured Shields number θ  [–]", low / 1.12, high * 1.12, true},
                {"event flux  [–]", least, most, true});
-  if (std::isfinite(onset.lower) && std::isfinite(onset.upper)) plot.shade({onset.lower, least}, {onset.upper, most}, ours, 0.12);
+  if (std::isfinite(onset.lower) && std::isfinite(onset.upper))
+    plot.shade({onset.lower, least}, {onset.upper, most}, ours, 0.12);
   if (std::isfinite(onset.shields)) {
     plot.line({{onset.shields, least}, {onset.shields, most}}, {ours, 1.4, ""});
-    plot.note({onset.shields, most * 0.5}, fmt::format(" θc = {:.3f}", onset.shields), ours, onset.shields > std::sqrt(low * high) * 1.2 ? "end" : "start");
+    plot.note({onset.shields, most * 0.5}, fmt::format(" θc = {:.3f}", onset.shields), ours,
+              onset.shields > std::sqrt(low * high) * 1.2 ? "end" : "start");
   }
   const bool by_flux = onset.activity == "event_flux";
   if (by_flux) plot.line({{low / 1.12, onset.value}, {high * 1.12, onset.value}}, {"#555", 1.2, "5 4"});
@@ -138,7 +154,8 @@ std::string ramp_figure(const Database& database, const FinishedCase& of) {
     if (flux > least) plot.vertical_bar(shields, std::max(least, flux - error), flux + error, ours);
     const bool moves = flux >= onset.value;
     plot.marker({shields, std::max(flux, least)}, Marker::circle, flux > 0 ? ours : still, moves,
-                fmt::format("theta = {:.4f}: flux {:.3g} ± {:.2g}, moving fraction {:.3g}", shields, flux, error, number_in(row[3])));
+                fmt::format("theta = {:.4f}: flux {:.3g} ± {:.2g}, moving fraction {:.3g}", shields, flux, error,
+                            number_in(row[3])));
   }
   return plot.svg();
 }
@@ -152,7 +169,8 @@ struct Profile {
 Profile profile_of(const Database& database, const FinishedCase& of, std::int64_t hold) {
   Profile profile;
   const Rows found = database.query(
-      "SELECT z_m, porosity, fluid_velocity_m_per_s, grain_velocity_m_per_s FROM bed_statistics WHERE case_id = ? AND hold = ? ORDER BY z_m",
+      "SELECT z_m, porosity, fluid_velocity_m_per_s, grain_velocity_m_per_s FROM bed_statistics WHERE case_id = ? AND "
+      "hold = ? ORDER BY z_m",
       {of.id, hold});
   for (const auto& row : found.rows) {
     const double z = number_in(row[0]) / of.diameter, porosity = number_in(row[1]);
@@ -165,18 +183,21 @@ Profile profile_of(const Database& database, const FinishedCase& of, std::int64_
 
 std::int64_t last_hold(const Database& database, const FinishedCase& of) {
   const Rows found = database.query("SELECT max(hold) FROM bed_statistics WHERE case_id = ?", {of.id});
-  return found.rows.empty() || std::holds_alternative<std::monostate>(found.rows[0][0]) ? -1 : std::get<std::int64_t>(found.rows[0][0]);
+  return found.rows.empty() || std::holds_alternative<std::monostate>(found.rows[0][0])
+             ? -1
+             : std::get<std::int64_t>(found.rows[0][0]);
 }
 
 double top_of(const Profile& profile) { return profile.porosity.empty() ? 1 : profile.porosity.back().y; }
 
-}  // namespace
+}   // namespace
 
 std::string porosity_figure(const Database& database, const FinishedCase& of) {
   const std::int64_t last = last_hold(database, of);
   const Profile before = profile_of(database, of, -1), after = profile_of(database, of, last);
   if (after.porosity.empty()) return {};
-  SvgPlot plot(small_width, small_height, {"porosity  [–]", 0.2, 1.02}, {"height z/d  [–]", 0, std::ceil(top_of(after))});
+  SvgPlot plot(small_width, small_height, {"porosity  [–]", 0.2, 1.02},
+               {"height z/d  [–]", 0, std::ceil(top_of(after))});
   if (!before.porosity.empty()) plot.line(before.porosity, {still, 1.8, ""});
   plot.line(after.porosity, {ours, 1.8, ""});
   plot.note({0.24, 0.93 * top_of(after)}, "settled", "#77838c");
@@ -190,7 +211,8 @@ std::string velocity_figure(const Database& database, const FinishedCase& of) {
   if (after.fluid.empty()) return {};
   double fastest = 1e-12;
   for (const PlotPoint p : after.fluid) fastest = std::max(fastest, p.x);
-  SvgPlot plot(small_width, small_height, {"streamwise velocity  [m/s]", 0, 1.06 * fastest}, {"height z/d  [–]", 0, std::ceil(top_of(after))});
+  SvgPlot plot(small_width, small_height, {"streamwise velocity  [m/s]", 0, 1.06 * fastest},
+               {"height z/d  [–]", 0, std::ceil(top_of(after))});
   plot.line(after.fluid, {ours, 1.8, ""});
   plot.line(after.grains, {other, 1.8, ""});
   plot.note({0.5 * fastest, 0.17 * top_of(after)}, fmt::format("fluid, hold {}", last), ours);
@@ -199,8 +221,10 @@ std::string velocity_figure(const Database& database, const FinishedCase& of) {
 }
 
 std::string history_figure(const Database& database, const FinishedCase& of) {
-  const Rows samples = database.query("SELECT time_s, moving_fraction, hold FROM samples WHERE case_id = ? ORDER BY time_s", {of.id});
-  const Rows holds = database.query("SELECT start_s, end_s, shields_nominal, hold FROM ramp_points WHERE case_id = ? ORDER BY hold", {of.id});
+  const Rows samples =
+      database.query("SELECT time_s, moving_fraction, hold FROM samples WHERE case_id = ? ORDER BY time_s", {of.id});
+  const Rows holds = database.query(
+      "SELECT start_s, end_s, shields_nominal, hold FROM ramp_points WHERE case_id = ? ORDER BY hold", {of.id});
   if (samples.rows.empty() || holds.rows.empty()) return {};
   constexpr double least = 1e-3, most = 3;
   SvgPlot plot(small_width, small_height, {"time since the ramp began  [s]", 0, number_in(holds.rows.back()[1])},
@@ -215,4 +239,4 @@ std::string history_figure(const Database& database, const FinishedCase& of) {
   return plot.svg();
 }
 
-}  // namespace bedload
+}   // namespace bedload

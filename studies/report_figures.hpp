@@ -28,4 +28,4 @@ std::string velocity_figure(const Database&, const FinishedCase&);
 /// Table samples: moving fraction in time, the ramp's steps shaded.
 std::string history_figure(const Database&, const FinishedCase&);
 
-}  // namespace bedload
+}   // namespace bedload

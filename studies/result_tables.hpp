@@ -161,4 +161,4 @@ CREATE VIEW IF NOT EXISTS transport_curve AS
   ORDER BY s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.parameter_set, s.seed, r.hold;
 )sql";
 
-}  // namespace bedload
+}   // namespace bedload

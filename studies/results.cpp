@@ -32,8 +32,11 @@ void insert(Database& database, std::string_view table, const std::vector<Value>
 
 struct Scales {
   explicit Scales(const Scene& scene)
-      : d(scene.bed.grains.diameter), s(scene.bed.grains.density / scene.bed.fluid.density), g(norm(scene.bed.gravity)),
-        nu(scene.bed.fluid.viscosity), galileo(galileo_number(s, g, d, nu)),
+      : d(scene.bed.grains.diameter),
+        s(scene.bed.grains.density / scene.bed.fluid.density),
+        g(norm(scene.bed.gravity)),
+        nu(scene.bed.fluid.viscosity),
+        galileo(galileo_number(s, g, d, nu)),
         grain_time(s > 1 && g > 0 ? bedload::grain_time(d, s, g, terminal_speed(scene.drag, nu, s, d, g)) : 0) {}
 
   /// q* of a flux of events: each carries one grain's volume over d/2, so that
@@ -50,10 +53,31 @@ void store_scene(Database& database, const CaseIdentity& id, const Scene& scene,
   const Scales scales(scene);
   const BedScene& bed = scene.bed;
   insert(database, "scenes",
-         {id.id, id.label, id.set, id.set_label, whole(id.seed), scales.d, bed.grains.spread, bed.grains.density,
-          bed.fluid.density, scales.s, scales.nu, scales.g, real_or_null(scales.galileo), bed.grains.young_modulus,
-          whole(state.grains.size()), surface_grains(scene), bed.length.x, bed.length.y, bed.length.z, scene.grid.h.x,
-          scene.grid.h.y, scene.grid.h.z, std::string(name_of(scene.drag)), scene.drive.dwell, bed.dem_step,
+         {id.id,
+          id.label,
+          id.set,
+          id.set_label,
+          whole(id.seed),
+          scales.d,
+          bed.grains.spread,
+          bed.grains.density,
+          bed.fluid.density,
+          scales.s,
+          scales.nu,
+          scales.g,
+          real_or_null(scales.galileo),
+          bed.grains.young_modulus,
+          whole(state.grains.size()),
+          surface_grains(scene),
+          bed.length.x,
+          bed.length.y,
+          bed.length.z,
+          scene.grid.h.x,
+          scene.grid.h.y,
+          scene.grid.h.z,
+          std::string(name_of(scene.drag)),
+          scene.drive.dwell,
+          bed.dem_step,
           scene.steps.fluid_interval});
 }
 
@@ -64,11 +88,26 @@ void store_ramp(Database& database, const CaseIdentity& id, const Scene& scene, 
   for (std::size_t k = 0; k < h.hold.size(); ++k) {
     const double root = std::sqrt(h.shields_measured[k]);
     insert(database, "ramp_points",
-           {id.id, whole(h.hold[k]), h.start[k], h.end[k], h.shields_nominal[k], h.shields_measured[k],
-            real_or_null(root * speed), real_or_null(root * scales.galileo), h.lid_speed[k], h.gradient[k], h.flux[k],
-            h.flux_standard_error[k], real_or_null(scales.transport(h.flux[k], per_area)),
-            real_or_null(scales.transport(h.flux_standard_error[k], per_area)), h.moving_fraction[k], h.bed_height[k],
-            h.roughness[k], h.porosity[k], h.coordination[k], known(h.momentum_residual[k])});
+           {id.id,
+            whole(h.hold[k]),
+            h.start[k],
+            h.end[k],
+            h.shields_nominal[k],
+            h.shields_measured[k],
+            real_or_null(root * speed),
+            real_or_null(root * scales.galileo),
+            h.lid_speed[k],
+            h.gradient[k],
+            h.flux[k],
+            h.flux_standard_error[k],
+            real_or_null(scales.transport(h.flux[k], per_area)),
+            real_or_null(scales.transport(h.flux_standard_error[k], per_area)),
+            h.moving_fraction[k],
+            h.bed_height[k],
+            h.roughness[k],
+            h.porosity[k],
+            h.coordination[k],
+            known(h.momentum_residual[k])});
   }
 }
 
@@ -83,21 +122,23 @@ void store_thresholds(Database& database, const CaseIdentity& id, const Onset& o
     const bool decides = criterion == onset.criterion && value == onset.value;
     insert(database, "thresholds",
            {id.id, std::string(criterion == Criterion::flux ? "flux" : "moving_fraction"), value, flag(decides),
-            std::string(name_of(found.status)), real_or_null(found.shields), real_or_null(found.lower), real_or_null(found.upper)});
+            std::string(name_of(found.status)), real_or_null(found.shields), real_or_null(found.lower),
+            real_or_null(found.upper)});
   }
 }
 
 void store_profiles(Database& database, const CaseIdentity& id, const BedRecord::Profiles& p) {
   for (std::size_t n = 0; n < p.z.size(); ++n)
-    insert(database, "bed_statistics", {id.id, whole(p.hold[n]), p.z[n], p.porosity[n], p.fluid_velocity[n], p.grain_velocity[n]});
+    insert(database, "bed_statistics",
+           {id.id, whole(p.hold[n]), p.z[n], p.porosity[n], p.fluid_velocity[n], p.grain_velocity[n]});
 }
 
 void store_samples(Database& database, const CaseIdentity& id, const BedRecord::Samples& s) {
   for (std::size_t n = 0; n < s.time.size(); ++n)
     insert(database, "samples",
-           {id.id, s.time[n], whole(s.hold[n]), s.shields_nominal[n], s.shields_measured[n], s.flux[n], s.moving_fraction[n],
-            s.bed_height[n], s.roughness[n], s.coordination[n], s.mean_grain_speed[n], s.deepest_overlap[n],
-            known(s.momentum_residual[n])});
+           {id.id, s.time[n], whole(s.hold[n]), s.shields_nominal[n], s.shields_measured[n], s.flux[n],
+            s.moving_fraction[n], s.bed_height[n], s.roughness[n], s.coordination[n], s.mean_grain_speed[n],
+            s.deepest_overlap[n], known(s.momentum_residual[n])});
 }
 
 void store_tracks(Database& database, const CaseIdentity& id, const BedRecord::Tracks& t) {
@@ -113,7 +154,7 @@ void store_models(Database& database, const CaseIdentity& id, const std::vector<
             models[n].reason});
 }
 
-}  // namespace
+}   // namespace
 
 void create_result_tables(Database& database) {
   Database::Transaction transaction(database);
@@ -124,7 +165,8 @@ void create_result_tables(Database& database) {
 void store_results(Database& database, const CaseIdentity& id, const Scene& scene, const State& state,
                    const std::vector<ModelChoice>& models, const Provenance& made_by) {
   Database::Transaction transaction(database);
-  for (const char* table : {"scenes", "ramp_points", "thresholds", "bed_statistics", "samples", "tracks", "models", "provenance"})
+  for (const char* table :
+       {"scenes", "ramp_points", "thresholds", "bed_statistics", "samples", "tracks", "models", "provenance"})
     database.execute(fmt::format("DELETE FROM {} WHERE case_id = ?", table), {id.id});
   store_scene(database, id, scene, state);
   store_ramp(database, id, scene, state.record.holds);
@@ -140,4 +182,4 @@ void store_results(Database& database, const CaseIdentity& id, const Scene& scen
   transaction.commit();
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -14,10 +14,10 @@ namespace bedload {
 
 /// Who a case is within its study.
 struct CaseIdentity {
-  std::string id;           // digest of the inputs
-  std::string label;        // of the case, e.g. "d0.5mm-rho2000-s1"
-  std::string set;          // digest of the inputs without the packing seed: the parameter set that its seeds share
-  std::string set_label;    // the label without the seed
+  std::string id;          // digest of the inputs
+  std::string label;       // of the case, e.g. "d0.5mm-rho2000-s1"
+  std::string set;         // digest of the inputs without the packing seed: the parameter set that its seeds share
+  std::string set_label;   // the label without the seed
   std::uint64_t seed = 1;
 };
 
@@ -38,4 +38,4 @@ void create_result_tables(Database&);
 void store_results(Database&, const CaseIdentity&, const Scene&, const State&, const std::vector<ModelChoice>&,
                    const Provenance&);
 
-}  // namespace bedload
+}   // namespace bedload

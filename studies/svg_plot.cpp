@@ -54,7 +54,8 @@ std::vector<Tick> linear_ticks(const PlotAxis& axis) {
   const double raw = (axis.high - axis.low) / 5, power = std::pow(10, std::floor(std::log10(raw)));
   const double step = power * (raw / power < 1.5 ? 1 : raw / power < 3.5 ? 2 : raw / power < 7.5 ? 5 : 10);
   std::vector<Tick> ticks;
-  for (double n = std::ceil(axis.low / step - 1e-9); n * step <= axis.high + 1e-9 * step; ++n) ticks.push_back({n * step, true});
+  for (double n = std::ceil(axis.low / step - 1e-9); n * step <= axis.high + 1e-9 * step; ++n)
+    ticks.push_back({n * step, true});
   return ticks;
 }
 
@@ -76,20 +77,24 @@ std::string marker_shape(double x, double y, Marker shape, std::string_view colo
   const std::string style = fmt::format("fill='{}' stroke='{}' stroke-width='1.8'", filled ? colour : "#fff", colour);
   switch (shape) {
     case Marker::circle: return fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='4.6' {}", x, y, style);
-    case Marker::square: return fmt::format("<rect x='{:.1f}' y='{:.1f}' width='8.4' height='8.4' {}", x - 4.2, y - 4.2, style);
-    case Marker::triangle:
-      return fmt::format("<path d='M{:.1f} {:.1f}l5.4 9.4h-10.8z' {}", x, y - 6, style);
+    case Marker::square:
+      return fmt::format("<rect x='{:.1f}' y='{:.1f}' width='8.4' height='8.4' {}", x - 4.2, y - 4.2, style);
+    case Marker::triangle: return fmt::format("<path d='M{:.1f} {:.1f}l5.4 9.4h-10.8z' {}", x, y - 6, style);
     case Marker::diamond:
       return fmt::format("<path d='M{:.1f} {:.1f}l5.6 5.6l-5.6 5.6l-5.6 -5.6z' {}", x, y - 5.6, style);
   }
   return {};
 }
 
-}  // namespace
+}   // namespace
 
 SvgPlot::SvgPlot(double width, double height, PlotAxis x, PlotAxis y, double legend_width)
-    : width_(width), height_(height), inner_width_(width - left - right - legend_width), inner_height_(height - top - bottom),
-      x_(std::move(x)), y_(std::move(y)) {}
+    : width_(width),
+      height_(height),
+      inner_width_(width - left - right - legend_width),
+      inner_height_(height - top - bottom),
+      x_(std::move(x)),
+      y_(std::move(y)) {}
 
 double SvgPlot::x_of(double x) const { return position(x_, x) * inner_width_; }
 double SvgPlot::y_of(double y) const { return (1 - position(y_, y)) * inner_height_; }
@@ -107,36 +112,44 @@ void SvgPlot::shade(PlotPoint from, PlotPoint to, std::string_view colour, doubl
 
 void SvgPlot::line(const std::vector<PlotPoint>& points, Stroke stroke) {
   std::string path;
-  for (const PlotPoint p : points) path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x_of(p.x), y_of(p.y));
-  areas_ += fmt::format("<path d='{}' fill='none' stroke='{}' stroke-width='{}' stroke-linejoin='round'{}/>", path, stroke.colour,
-                        stroke.width, dashes(stroke.dash));
+  for (const PlotPoint p : points)
+    path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x_of(p.x), y_of(p.y));
+  areas_ += fmt::format("<path d='{}' fill='none' stroke='{}' stroke-width='{}' stroke-linejoin='round'{}/>", path,
+                        stroke.colour, stroke.width, dashes(stroke.dash));
 }
 
 void SvgPlot::vertical_bar(double x, double low, double high, std::string_view colour) {
-  const double at = x_of(x), from = std::clamp(y_of(low), 0.0, inner_height_), to = std::clamp(y_of(high), 0.0, inner_height_);
+  const double at = x_of(x), from = std::clamp(y_of(low), 0.0, inner_height_),
+               to = std::clamp(y_of(high), 0.0, inner_height_);
   if (at < 0 || at > inner_width_) return;
-  marks_ += fmt::format("<path d='M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {1:.1f}h8M{3:.1f} {2:.1f}h8' stroke='{4}' stroke-width='1.4' fill='none'/>",
-                        at, from, to, at - 4, colour);
+  marks_ += fmt::format(
+      "<path d='M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {1:.1f}h8M{3:.1f} {2:.1f}h8' stroke='{4}' stroke-width='1.4' "
+      "fill='none'/>",
+      at, from, to, at - 4, colour);
 }
 
 void SvgPlot::vertical_arrow(double x, double from, bool upward, std::string_view colour) {
   if (!inside({x, from})) return;
   const double sign = upward ? -1 : 1, tip = y_of(from) + 26 * sign;
-  marks_ += fmt::format("<path d='M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {4:.1f}L{0:.1f} {2:.1f}L{5:.1f} {4:.1f}' stroke='{6}' "
-                        "stroke-width='1.6' fill='none'/>",
-                        x_of(x), y_of(from), tip, x_of(x) - 4, tip - 6 * sign, x_of(x) + 4, colour);
+  marks_ += fmt::format(
+      "<path d='M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {4:.1f}L{0:.1f} {2:.1f}L{5:.1f} {4:.1f}' stroke='{6}' "
+      "stroke-width='1.6' fill='none'/>",
+      x_of(x), y_of(from), tip, x_of(x) - 4, tip - 6 * sign, x_of(x) + 4, colour);
 }
 
 void SvgPlot::marker(PlotPoint at, Marker shape, std::string_view colour, bool filled, std::string_view tooltip) {
   if (!inside(at)) return;
-  marks_ += marker_shape(x_of(at.x), y_of(at.y), shape, colour, filled) + fmt::format("><title>{}</title></{}>", escaped(tooltip),
-            shape == Marker::circle ? "circle" : shape == Marker::square ? "rect" : "path");
+  marks_ += marker_shape(x_of(at.x), y_of(at.y), shape, colour, filled) +
+            fmt::format("><title>{}</title></{}>", escaped(tooltip),
+                        shape == Marker::circle   ? "circle"
+                        : shape == Marker::square ? "rect"
+                                                  : "path");
 }
 
 void SvgPlot::note(PlotPoint at, std::string_view text, std::string_view colour, std::string_view anchor) {
   if (!inside(at)) return;
-  marks_ += fmt::format("<text x='{:.1f}' y='{:.1f}' fill='{}' text-anchor='{}' class='note'>{}</text>", x_of(at.x), y_of(at.y), colour,
-                        anchor, escaped(text));
+  marks_ += fmt::format("<text x='{:.1f}' y='{:.1f}' fill='{}' text-anchor='{}' class='note'>{}</text>", x_of(at.x),
+                        y_of(at.y), colour, anchor, escaped(text));
 }
 
 void SvgPlot::legend_heading(std::string_view text) {
@@ -146,14 +159,16 @@ void SvgPlot::legend_heading(std::string_view text) {
 }
 
 void SvgPlot::legend_line(std::string_view text, Stroke stroke) {
-  legend_ += fmt::format("<path d='M0 {0:.1f}h26' stroke='{1}' stroke-width='{2}'{3}/><text x='34' y='{4:.1f}'>{5}</text>", legend_y_,
-                         stroke.colour, stroke.width, dashes(stroke.dash), legend_y_ + 4, escaped(text));
+  legend_ +=
+      fmt::format("<path d='M0 {0:.1f}h26' stroke='{1}' stroke-width='{2}'{3}/><text x='34' y='{4:.1f}'>{5}</text>",
+                  legend_y_, stroke.colour, stroke.width, dashes(stroke.dash), legend_y_ + 4, escaped(text));
   legend_y_ += legend_step;
 }
 
 void SvgPlot::legend_shade(std::string_view text, std::string_view colour, double opacity) {
-  legend_ += fmt::format("<rect x='0' y='{:.1f}' width='26' height='11' fill='{}' opacity='{}'/><text x='34' y='{:.1f}'>{}</text>",
-                         legend_y_ - 5.5, colour, opacity, legend_y_ + 4, escaped(text));
+  legend_ += fmt::format(
+      "<rect x='0' y='{:.1f}' width='26' height='11' fill='{}' opacity='{}'/><text x='34' y='{:.1f}'>{}</text>",
+      legend_y_ - 5.5, colour, opacity, legend_y_ + 4, escaped(text));
   legend_y_ += legend_step;
 }
 
@@ -169,17 +184,20 @@ std::string SvgPlot::axes() const {
     const double x = x_of(tick.value);
     grid += fmt::format("<path d='M{:.1f} 0V{:.1f}' class='{}'/>", x, inner_height_, tick.labelled ? "grid" : "fine");
     if (tick.labelled)
-      labels += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>", x, inner_height_ + 17, tick_text(x_, tick.value));
+      labels += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>", x, inner_height_ + 17,
+                            tick_text(x_, tick.value));
   }
   for (const Tick& tick : ticks_of(y_, inner_height_)) {
     const double y = y_of(tick.value);
     grid += fmt::format("<path d='M0 {:.1f}H{:.1f}' class='{}'/>", y, inner_width_, tick.labelled ? "grid" : "fine");
-    if (tick.labelled) labels += fmt::format("<text x='-7' y='{:.1f}' text-anchor='end'>{}</text>", y + 4, tick_text(y_, tick.value));
+    if (tick.labelled)
+      labels += fmt::format("<text x='-7' y='{:.1f}' text-anchor='end'>{}</text>", y + 4, tick_text(y_, tick.value));
   }
   labels += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle' class='axis'>{}</text>", inner_width_ / 2,
                         inner_height_ + 38, escaped(x_.label));
-  labels += fmt::format("<text transform='translate(-53 {:.1f}) rotate(-90)' text-anchor='middle' class='axis'>{}</text>",
-                        inner_height_ / 2, escaped(y_.label));
+  labels +=
+      fmt::format("<text transform='translate(-53 {:.1f}) rotate(-90)' text-anchor='middle' class='axis'>{}</text>",
+                  inner_height_ / 2, escaped(y_.label));
   return grid + labels;
 }
 
@@ -191,4 +209,4 @@ std::string SvgPlot::svg() const {
       width_, height_, left, top, axes(), inner_width_, inner_height_, areas_, marks_, inner_width_ + 22, legend_);
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -36,7 +36,7 @@ class SvgPlot {
 
   void shade(PlotPoint from, PlotPoint to, std::string_view colour, double opacity);
   void line(const std::vector<PlotPoint>&, Stroke);
-  void vertical_bar(double x, double low, double high, std::string_view colour);     // error bar with caps
+  void vertical_bar(double x, double low, double high, std::string_view colour);      // error bar with caps
   void vertical_arrow(double x, double from, bool upward, std::string_view colour);   // an open bound
   void marker(PlotPoint, Marker, std::string_view colour, bool filled, std::string_view tooltip);
   void note(PlotPoint, std::string_view text, std::string_view colour, std::string_view anchor = "start");
@@ -60,4 +60,4 @@ class SvgPlot {
   std::string areas_, marks_, legend_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

@@ -1,4 +1,4 @@
-// From the thresholds of cases to one point per parameter set, and that curve as text.
+// From the thresholds of cases to one point per parameter set.
 #include "studies/threshold_curve.hpp"
 
 #include <fmt/format.h>
@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "solver/dimensionless.hpp"
 #include "studies/database_values.hpp"
-#include "studies/published_curves.hpp"
 
 namespace bedload {
 
@@ -77,14 +75,17 @@ void summarise(const std::vector<SeedThreshold>& seeds, ThresholdPoint& point) {
     if (point.status == "censored_below" && std::isnan(point.upper))
       for (const SeedThreshold& seed : seeds) point.upper = std::fmax(point.upper, seed.upper);
   }
-  const double quoted = std::isfinite(point.shields) ? point.shields : std::isfinite(point.lower) ? point.lower : point.upper;
+  const double quoted = std::isfinite(point.shields) ? point.shields
+                        : std::isfinite(point.lower) ? point.lower
+                                                     : point.upper;
   point.reynolds = friction_reynolds_number(quoted, point.galileo);
 }
 
 /// Every finished seed that counts, in the curve's order.
 Rows seeds_in_order(const Database& database) {
   return database.query(fmt::format(
-      "SELECT s.parameter_set, s.set_label, s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.galileo, t.status, t.shields, "
+      "SELECT s.parameter_set, s.set_label, s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.galileo, t.status, "
+      "t.shields, "
       "t.shields_lower, t.shields_upper FROM scenes s JOIN thresholds t USING (case_id) WHERE t.decides = 1 AND {} "
       "ORDER BY s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.parameter_set, s.seed",
       in_study(database)));
@@ -113,16 +114,17 @@ std::vector<ThresholdPoint> curve_from_thresholds(const Database& database) {
 
 Value count(std::uint64_t number) { return static_cast<std::int64_t>(number); }
 
-}  // namespace
+}   // namespace
 
 void update_threshold_curve(Database& database) {
   Database::Transaction transaction(database);
   database.execute("DELETE FROM threshold_curve");
   for (const ThresholdPoint& p : curve_from_thresholds(database))
-    database.execute("INSERT INTO threshold_curve VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                     {p.set, p.label, p.diameter, p.density_ratio, p.viscosity, real_or_null(p.galileo), real_or_null(p.reynolds),
-                      real_or_null(p.shields), real_or_null(p.lower), real_or_null(p.upper), p.status, count(p.seeds),
-                      count(p.bracketed), count(p.censored_below), count(p.censored_above), count(p.noisy)});
+    database.execute(
+        "INSERT INTO threshold_curve VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        {p.set, p.label, p.diameter, p.density_ratio, p.viscosity, real_or_null(p.galileo), real_or_null(p.reynolds),
+         real_or_null(p.shields), real_or_null(p.lower), real_or_null(p.upper), p.status, count(p.seeds),
+         count(p.bracketed), count(p.censored_below), count(p.censored_above), count(p.noisy)});
   transaction.commit();
 }
 
@@ -130,79 +132,30 @@ std::vector<ThresholdPoint> threshold_curve(const Database& database) {
   std::vector<ThresholdPoint> curve;
   if (!has_table(database, "threshold_curve")) return curve;
   const Rows found = database.query(
-      "SELECT parameter_set, label, diameter_m, density_ratio, viscosity_m2_per_s, galileo, friction_reynolds, shields, "
-      "shields_lower, shields_upper, status, seeds, bracketed, censored_below, censored_above, noisy FROM threshold_curve "
+      "SELECT parameter_set, label, diameter_m, density_ratio, viscosity_m2_per_s, galileo, friction_reynolds, "
+      "shields, "
+      "shields_lower, shields_upper, status, seeds, bracketed, censored_below, censored_above, noisy FROM "
+      "threshold_curve "
       "ORDER BY diameter_m, density_ratio, viscosity_m2_per_s, parameter_set");
   const auto whole = [](const Value& value) { return static_cast<std::uint64_t>(std::get<std::int64_t>(value)); };
   for (const auto& row : found.rows)
-    curve.push_back({.set = text_in(row[0]), .label = text_in(row[1]), .diameter = number_in(row[2]),
-                     .density_ratio = number_in(row[3]), .viscosity = number_in(row[4]), .galileo = number_in(row[5]),
-                     .reynolds = number_in(row[6]), .shields = number_in(row[7]), .lower = number_in(row[8]),
-                     .upper = number_in(row[9]), .status = text_in(row[10]), .seeds = whole(row[11]), .bracketed = whole(row[12]),
-                     .censored_below = whole(row[13]), .censored_above = whole(row[14]), .noisy = whole(row[15])});
+    curve.push_back({.set = text_in(row[0]),
+                     .label = text_in(row[1]),
+                     .diameter = number_in(row[2]),
+                     .density_ratio = number_in(row[3]),
+                     .viscosity = number_in(row[4]),
+                     .galileo = number_in(row[5]),
+                     .reynolds = number_in(row[6]),
+                     .shields = number_in(row[7]),
+                     .lower = number_in(row[8]),
+                     .upper = number_in(row[9]),
+                     .status = text_in(row[10]),
+                     .seeds = whole(row[11]),
+                     .bracketed = whole(row[12]),
+                     .censored_below = whole(row[13]),
+                     .censored_above = whole(row[14]),
+                     .noisy = whole(row[15])});
   return curve;
 }
 
-namespace {
-
-/// theta_c, or the bound beyond which it lies.
-std::string shields_or_bound(const ThresholdPoint& p) {
-  if (std::isfinite(p.shields)) return fmt::format("{:.4f}", p.shields);
-  if (p.status == "censored_below" && std::isfinite(p.upper)) return fmt::format("< {:.4f}", p.upper);
-  if (std::isfinite(p.lower)) return fmt::format("> {:.4f}", p.lower);
-  return "-";
-}
-
-std::string or_dash(double number, int digits) { return std::isfinite(number) ? fmt::format("{:.{}f}", number, digits) : "-"; }
-
-std::string or_empty(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
-
-std::size_t widest_label(const std::vector<ThresholdPoint>& curve) {
-  std::size_t width = 5;
-  for (const ThresholdPoint& p : curve) width = std::max(width, p.label.size());
-  return width;
-}
-
-}  // namespace
-
-std::string curve_as_table(const std::vector<ThresholdPoint>& curve) {
-  const std::size_t width = widest_label(curve);
-  std::string text = fmt::format("{:<{}} {:>7} {:>7} {:>9} {:>8} {:>8}  {:<14} {:>5}", "scene", width, "Ga", "Re*", "theta_c",
-                                 "lower", "upper", "status", "seeds");
-  for (const PublishedCurve& published : curves_for_tables()) text += fmt::format(" {:>14}", published.name);
-  text += '\n';
-  for (const ThresholdPoint& p : curve) {
-    text += fmt::format("{:<{}} {:>7.3g} {:>7.3g} {:>9} {:>8} {:>8}  {:<14} {:>5}", p.label, width, p.galileo, p.reynolds,
-                        shields_or_bound(p), or_dash(p.lower, 4), or_dash(p.upper, 4), p.status, p.seeds);
-    for (const PublishedCurve& published : curves_for_tables()) text += fmt::format(" {:>14.4f}", published.shields(p.galileo));
-    text += '\n';
-  }
-  return text + fmt::format("laminar beds, measured: {} +- {} ({})\n", laminar_band.shields, laminar_band.half_width,
-                            laminar_band.source);
-}
-
-std::string curve_as_csv(const std::vector<ThresholdPoint>& curve) {
-  std::string text = "label,diameter_m,density_ratio,viscosity_m2_per_s,galileo,friction_reynolds,shields,shields_lower,"
-                     "shields_upper,status,seeds,bracketed,censored_below,censored_above,noisy,parameter_set\n";
-  for (const ThresholdPoint& p : curve)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", p.label, p.diameter, p.density_ratio, p.viscosity,
-                        or_empty(p.galileo), or_empty(p.reynolds), or_empty(p.shields), or_empty(p.lower), or_empty(p.upper),
-                        p.status, p.seeds, p.bracketed, p.censored_below, p.censored_above, p.noisy, p.set);
-  return text;
-}
-
-std::string curve_as_json(const std::vector<ThresholdPoint>& curve) {
-  auto points = nlohmann::ordered_json::array();
-  for (const ThresholdPoint& p : curve) {
-    nlohmann::ordered_json published;
-    for (const PublishedCurve& known : published_curves()) published[std::string(known.name)] = known.shields(p.galileo);
-    points.push_back({{"label", p.label}, {"diameter_m", p.diameter}, {"density_ratio", p.density_ratio},
-                      {"viscosity_m2_per_s", p.viscosity}, {"galileo", p.galileo}, {"friction_reynolds", p.reynolds},
-                      {"shields", p.shields}, {"shields_lower", p.lower}, {"shields_upper", p.upper}, {"status", p.status},
-                      {"seeds", p.seeds}, {"bracketed", p.bracketed}, {"censored_below", p.censored_below},
-                      {"censored_above", p.censored_above}, {"noisy", p.noisy}, {"parameter_set", p.set}, {"published", published}});
-  }
-  return points.dump(2) + "\n";   // a number that is not known becomes null
-}
-
-}  // namespace bedload
+}   // namespace bedload

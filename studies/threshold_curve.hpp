@@ -12,15 +12,15 @@ namespace bedload {
 /// One parameter set. A bound or value that the runs do not give is nan.
 struct ThresholdPoint {
   std::string set, label;
-  double diameter = 0;          // [m]
-  double density_ratio = 0;     // s [-]
-  double viscosity = 0;         // nu [m2/s]
-  double galileo = 0;           // sqrt((s-1) g d^3)/nu [-]
-  double reynolds = 0;          // Re* = sqrt(theta) Ga of theta_c, or of the one bound there is [-]
-  double shields = 0;           // theta_c, median over the seeds [-]
-  double lower = 0, upper = 0;  // lowest and highest bound of any seed [-]
-  std::string status;           // bracketed | censored_below | censored_above | noisy
-  std::uint64_t seeds = 0;      // finished
+  double diameter = 0;           // [m]
+  double density_ratio = 0;      // s [-]
+  double viscosity = 0;          // nu [m2/s]
+  double galileo = 0;            // sqrt((s-1) g d^3)/nu [-]
+  double reynolds = 0;           // Re* = sqrt(theta) Ga of theta_c, or of the one bound there is [-]
+  double shields = 0;            // theta_c, median over the seeds [-]
+  double lower = 0, upper = 0;   // lowest and highest bound of any seed [-]
+  std::string status;            // bracketed | censored_below | censored_above | noisy
+  std::uint64_t seeds = 0;       // finished
   std::uint64_t bracketed = 0, censored_below = 0, censored_above = 0, noisy = 0;   // of them
 };
 
@@ -37,4 +37,4 @@ std::string curve_as_table(const std::vector<ThresholdPoint>&);
 std::string curve_as_csv(const std::vector<ThresholdPoint>&);
 std::string curve_as_json(const std::vector<ThresholdPoint>&);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -51,7 +51,7 @@ std::vector<LayerOfGrains> layers_of(const Grains& grains, double height, std::s
   return layers;
 }
 
-}  // namespace
+}   // namespace
 
 void record_profiles(const Grains& grains, const FluidState& fluid, const StaggeredGrid& grid, double diameter,
                      double lid_speed, double hold, BedRecord::Profiles& out) {
@@ -70,4 +70,4 @@ void record_profiles(const Grains& grains, const FluidState& fluid, const Stagge
   }
 }
 
-}  // namespace bedload
+}   // namespace bedload

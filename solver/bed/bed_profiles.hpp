@@ -9,10 +9,10 @@ namespace bedload {
 
 /// Appends one row per layer of about d/4: its middle z, porosity, mean streamwise fluid velocity (linear between the
 /// planes of the grid) and mean streamwise grain velocity, weighted by the grains' exact slices; 0 where there is no grain.
-void record_profiles(const Grains&, const FluidState&, const StaggeredGrid&, double diameter, double lid_speed, double hold,
-                     BedRecord::Profiles&);
+void record_profiles(const Grains&, const FluidState&, const StaggeredGrid&, double diameter, double lid_speed,
+                     double hold, BedRecord::Profiles&);
 
 /// Mean streamwise velocity u [m/s] of every plane of cells, from the bottom up.
 std::vector<double> plane_means(const Field<FaceX>& u, const StaggeredGrid&);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -13,20 +13,20 @@ struct BedRecord {
         moving_fraction, mean_grain_speed, deepest_overlap, momentum_residual;
     bool operator==(const Samples&) const = default;
   } samples;
-  struct Holds {     // one row per finished hold
+  struct Holds {   // one row per finished hold
     std::vector<double> hold, start, end, shields_nominal, shields_measured, lid_speed, gradient, flux,
         flux_standard_error, moving_fraction, bed_height, roughness, porosity, coordination, momentum_residual;
     bool operator==(const Holds&) const = default;
   } holds;
-  struct Profiles {  // at the end of packing (hold -1) and of every hold, mean over x and y
+  struct Profiles {   // at the end of packing (hold -1) and of every hold, mean over x and y
     std::vector<double> hold, z, porosity, fluid_velocity, grain_velocity;
     bool operator==(const Profiles&) const = default;
   } profiles;
-  struct Tracks {    // record.tracks, one row per sample and tracked grain
+  struct Tracks {   // record.tracks, one row per sample and tracked grain
     std::vector<double> time, grain, x, y, z, vx, vy, vz;
     bool operator==(const Tracks&) const = default;
   } tracks;
   bool operator==(const BedRecord&) const = default;
 };
 
-}  // namespace bedload
+}   // namespace bedload

@@ -89,7 +89,7 @@ double standard_deviation(const std::vector<double>& values) {
   return std::sqrt(squares / count);
 }
 
-}  // namespace
+}   // namespace
 
 BedSurface bed_surface(const Grains& grains, Vec3 length, double diameter) {
   const auto bins = static_cast<std::size_t>(std::max(1L, std::lround(10 * length.z / diameter)));
@@ -109,4 +109,4 @@ double coordination(const ContactHistory& contacts, std::size_t grains) {
   return grains ? 2.0 * static_cast<double>(touching) / static_cast<double>(grains) : 0;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -30,4 +30,4 @@ BedSurface bed_surface(const Grains&, Vec3 length, double diameter);
 /// Mean number of grains that a grain touches; walls are not counted.
 double coordination(const ContactHistory&, std::size_t grains);
 
-}  // namespace bedload
+}   // namespace bedload

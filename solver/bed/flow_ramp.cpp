@@ -17,10 +17,11 @@ namespace {
 double gap_above(const Scene& scene, double bed_height) {
   const double gap = scene.bed.length.z - bed_height;
   if (gap > 0) return gap;
-  throw Error(ErrorKind::study_invalid,
-              fmt::format("the bed fills its box: its surface stands at {:.4g} m of {:.4g} m, and no flow fits above it",
-                          bed_height, scene.bed.length.z),
-              "raise box.height or lower bed.count");
+  throw Error(
+      ErrorKind::study_invalid,
+      fmt::format("the bed fills its box: its surface stands at {:.4g} m of {:.4g} m, and no flow fits above it",
+                  bed_height, scene.bed.length.z),
+      "raise box.height or lower bed.count");
 }
 
 /// Stress on the bed per kinematic drive: tau_b = rho_f * slope * U for a lid, rho_f * slope * G for a gradient.
@@ -29,14 +30,15 @@ double bed_stress_per_drive(const Scene& scene, double gap) {
   return scene.bed.top == Top::free_slip ? gap : gap / 2;
 }
 
-}  // namespace
+}   // namespace
 
 ImposedFlow imposed_flow(const Scene& scene, std::uint64_t hold, double bed_height) {
   const FlowRamp& ramp = scene.drive;
   if (ramp.kind == FlowRamp::Kind::none) return {};
   const double level = ramp.levels.at(hold);
   const double density = scene.bed.fluid.density;
-  const bool has_bed_stress = scene.bed.sides[2] == Side::wall;   // without bottom and top there is no tau_b to speak of
+  const bool has_bed_stress =
+      scene.bed.sides[2] == Side::wall;   // without bottom and top there is no tau_b to speak of
   const double per_drive = has_bed_stress ? bed_stress_per_drive(scene, gap_above(scene, bed_height)) : 0;
   const double stress = shields_stress(scene.bed.fluid, scene.bed.grains, norm(scene.bed.gravity));
 
@@ -60,4 +62,4 @@ double steady_increment(const Scene& scene, const ImposedFlow& change, double be
   return couette + change.gradient / scene.bed.fluid.viscosity * (scene.bed.top == Top::free_slip ? film : channel);
 }
 
-}  // namespace bedload
+}   // namespace bedload

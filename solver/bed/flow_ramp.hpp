@@ -8,8 +8,8 @@ namespace bedload {
 
 /// One staircase. Level k is held for `dwell` seconds, then level k+1 begins.
 struct FlowRamp {
-  enum class Kind { none, lid, pressure };                 // what moves the fluid
-  enum class Quantity { shields, lid_speed, gradient };    // what the levels count: [-], [m/s], [Pa/m]
+  enum class Kind { none, lid, pressure };                // what moves the fluid
+  enum class Quantity { shields, lid_speed, gradient };   // what the levels count: [-], [m/s], [Pa/m]
   Kind kind = Kind::none;
   Quantity quantity = Quantity::shields;
   std::vector<double> levels;
@@ -39,4 +39,4 @@ ImposedFlow imposed_flow(const Scene&, std::uint64_t hold, double bed_height);
 /// linear under a lid, parabolic under a gradient (no stress at a free-slip top, no slip at a lid), nothing below z_b.
 double steady_increment(const Scene&, const ImposedFlow& change, double bed_height, double z);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -43,7 +43,7 @@ double log_linear_crossing(double still_shields, double still, double moving_shi
   return still_shields + (moving_shields - still_shields) * (std::log(value) - from) / (to - from);
 }
 
-}  // namespace
+}   // namespace
 
 std::string_view name_of(OnsetStatus status) {
   switch (status) {
@@ -96,8 +96,8 @@ std::uint64_t count_events(Grains& grains, std::span<const double> x_before, dou
 
 std::uint64_t count_moving(const Grains& grains, double speed_scale) noexcept {
   const double limit = 0.01 * speed_scale;
-  return static_cast<std::uint64_t>(std::count_if(grains.velocity.begin(), grains.velocity.end(),
-                                                  [&](Vec3 v) { return norm2(v) > limit * limit; }));
+  return static_cast<std::uint64_t>(
+      std::count_if(grains.velocity.begin(), grains.velocity.end(), [&](Vec3 v) { return norm2(v) > limit * limit; }));
 }
 
 double surface_grains(const Scene& scene) {
@@ -113,4 +113,4 @@ double grain_time(double diameter, double density_ratio, double gravity, double 
   return std::max(inertial, viscous);
 }
 
-}  // namespace bedload
+}   // namespace bedload

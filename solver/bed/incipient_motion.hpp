@@ -17,10 +17,11 @@ std::string_view name_of(OnsetStatus);
 /// and the next did not; then `lower` is the hold before that first stir and `upper` the later confirmed onset, if any.
 struct IncipientMotion {
   OnsetStatus status = OnsetStatus::none;
-  double shields = 0;   // where the criterion passes its value between the last still and first moving hold, log-linear [-];
-                        // nan unless a moving hold is confirmed and has one before it
-  double lower = 0;     // [-]; nan below a first hold that moves
-  double upper = 0;     // [-]; nan above a last hold that is still
+  double shields =
+      0;   // where the criterion passes its value between the last still and first moving hold, log-linear [-];
+           // nan unless a moving hold is confirmed and has one before it
+  double lower = 0;   // [-]; nan below a first hold that moves
+  double upper = 0;   // [-]; nan above a last hold that is still
 };
 
 /// Onset by ramp: the first hold k at or above `value` that k+1 confirms; pure function of the record.
@@ -43,4 +44,4 @@ double surface_grains(const Scene&);
 /// (coupling/drag_laws), `density_ratio` s. Grains no heavier than the fluid have only d/U_t; 0 if neither is defined.
 double grain_time(double diameter, double density_ratio, double gravity, double terminal_speed);
 
-}  // namespace bedload
+}   // namespace bedload

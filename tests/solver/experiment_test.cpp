@@ -53,7 +53,8 @@ TEST(Experiment, ReadsTheFlowsFromPressureOffTheBottomWithinTheirGridError) {
     Scene scene = bed_scene(0, FlowRamp::Kind::pressure, {0.1});
     scene.bed.top = scene.grid.top = top;
     const State state = run(scene);
-    EXPECT_NEAR(state.record.holds.shields_measured.at(0), 0.1, 0.1 / 20);   // a parabola's wall slope, first cell of 20
+    EXPECT_NEAR(state.record.holds.shields_measured.at(0), 0.1,
+                0.1 / 20);   // a parabola's wall slope, first cell of 20
     EXPECT_LT(state.record.holds.momentum_residual.at(0), 1e-10);
   }
 }
@@ -62,7 +63,8 @@ TEST(Experiment, OverABedClosesItsMomentumAndFindsTheImposedShieldsNumber) {
   const State state = run(bed_scene(190, FlowRamp::Kind::lid, {0.05, 0.05, 0.05, 0.05}));
   const auto& holds = state.record.holds;
   for (const double residual : holds.momentum_residual) EXPECT_LT(residual, 1e-10);
-  EXPECT_NEAR(holds.shields_measured.back(), 0.05, 0.1 * 0.05);   // the flow inside the surface is still finding its place
+  EXPECT_NEAR(holds.shields_measured.back(), 0.05,
+              0.1 * 0.05);   // the flow inside the surface is still finding its place
   EXPECT_GT(holds.bed_height.back(), 3 * d);
   EXPECT_GT(holds.porosity.back(), 0.36);
   EXPECT_LT(holds.porosity.back(), 0.55);
@@ -79,7 +81,8 @@ TEST(Experiment, RecordsSamplesHoldsAndProfilesOnceEach) {
   EXPECT_EQ(record.profiles.hold.front(), -1);
   EXPECT_EQ(record.profiles.hold.back(), 1);
   EXPECT_EQ(record.profiles.z.size(), 3 * 40u);   // layers of d/4
-  for (std::size_t n = 1; n < record.samples.time.size(); ++n) EXPECT_GT(record.samples.time[n], record.samples.time[n - 1]);
+  for (std::size_t n = 1; n < record.samples.time.size(); ++n)
+    EXPECT_GT(record.samples.time[n], record.samples.time[n - 1]);
 }
 
 TEST(Experiment, HasNoMomentumResidualToShowWhereWallsOrFixedGrainsTakePart) {
@@ -111,7 +114,8 @@ TEST(Experiment, OnASharedBedIsTheExperimentThatPacksItsOwn) {
 }
 
 TEST(Experiment, GoesOnWhenItsRampGrows) {
-  const Scene shorter = bed_scene(60, FlowRamp::Kind::lid, {0.05}), longer = bed_scene(60, FlowRamp::Kind::lid, {0.05, 0.1});
+  const Scene shorter = bed_scene(60, FlowRamp::Kind::lid, {0.05}),
+              longer = bed_scene(60, FlowRamp::Kind::lid, {0.05, 0.1});
   State state = run(shorter);
   EXPECT_FALSE(Experiment(shorter).reopen(state));
   Experiment experiment(longer);
@@ -120,5 +124,5 @@ TEST(Experiment, GoesOnWhenItsRampGrows) {
   EXPECT_EQ(state_digest(state), state_digest(run(longer)));
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

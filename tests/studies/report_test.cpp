@@ -32,10 +32,13 @@ class ReportTest : public ::testing::Test {
  protected:
   ReportTest() { create_result_tables(database_); }
   void add_point(const std::string& set, const char* status, Value shields, Value lower, Value upper) {
-    database_.execute("INSERT INTO threshold_curve VALUES (?,?,5e-4,2,1e-5,3.5,1.4,?,?,?,?,1,1,0,0,0)", {set, set, shields, lower, upper, std::string(status)});
+    database_.execute("INSERT INTO threshold_curve VALUES (?,?,5e-4,2,1e-5,3.5,1.4,?,?,?,?,1,1,0,0,0)",
+                      {set, set, shields, lower, upper, std::string(status)});
   }
   void add_case() {
-    database_.execute("INSERT INTO scenes VALUES ('c','label-c','set','set',1,5e-4,0,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,1,'stokes',1,1,1)");
+    database_.execute(
+        "INSERT INTO scenes VALUES "
+        "('c','label-c','set','set',1,5e-4,0,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,1,'stokes',1,1,1)");
     database_.execute("INSERT INTO thresholds VALUES ('c','flux',0.01,1,'bracketed',0.17,0.15,0.18)");
     for (const auto* row : {"0,0,1,0.1,0.1,0,0,0,0,0,0", "1,1,2,0.2,0.2,0,0,0,0,0.5,0.1"})
       database_.execute(std::string("INSERT INTO ramp_points VALUES ('c',") + row + ",0,0,0.1,0.003,0.0005,0.4,5,0)");
@@ -56,7 +59,8 @@ TEST_F(ReportTest, SaysSoWhenNothingHasFinished) {
 TEST_F(ReportTest, FetchesNothing) {
   add_case();
   add_point("a", "bracketed", 0.17, 0.15, 0.18);
-  for (const char* fetch : {"http:", "https:", "src=", "@import", "url(http"}) EXPECT_EQ(page().find(fetch), std::string::npos) << fetch;
+  for (const char* fetch : {"http:", "https:", "src=", "@import", "url(http"})
+    EXPECT_EQ(page().find(fetch), std::string::npos) << fetch;
 }
 
 TEST_F(ReportTest, IsWellFormedAndEscapesWhatOthersWrote) {
@@ -81,7 +85,8 @@ TEST_F(ReportTest, ShowsValuesFilledAndOneSidedBoundsOpen) {
 }
 
 TEST_F(ReportTest, NamesEveryPublishedCurve) {
-  for (const char* name : {"Soulsby 1997", "Brownlie 1981", "Parker 2003", "Cao 2006", "Guo 2002", "van Rijn 1984", "0.12 ± 0.03"})
+  for (const char* name :
+       {"Soulsby 1997", "Brownlie 1981", "Parker 2003", "Cao 2006", "Guo 2002", "van Rijn 1984", "0.12 ± 0.03"})
     EXPECT_NE(page().find(name), std::string::npos) << name;
 }
 
@@ -101,9 +106,7 @@ BedView two_grains() {
   return view;
 }
 
-TEST(BedPicture, ShowsTheFrontSlice) {
-  EXPECT_EQ(occurrences(bed_picture(two_grains(), 100), "<circle"), 1u);
-}
+TEST(BedPicture, ShowsTheFrontSlice) { EXPECT_EQ(occurrences(bed_picture(two_grains(), 100), "<circle"), 1u); }
 
 TEST(BedPicture, ShowsAGrainAcrossTheSeamAtBothEnds) {
   BedView view = two_grains();
@@ -125,5 +128,5 @@ TEST(SvgPlot, PutsDataWhereItsAxesSay) {
   EXPECT_EQ(plot.svg().find("outside"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

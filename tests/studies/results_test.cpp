@@ -56,7 +56,8 @@ class ResultsTest : public ::testing::Test {
   ResultsTest() { create_result_tables(database_); }
   void store() {
     store_results(database_, {"id1", "d0.5mm-s1", "set1", "d0.5mm", 1}, small_scene(), finished_state(),
-                  {{.term = "drag", .on = true, .wanted = true, .ratio = 1, .reason = "there is a bed"}}, {"0.1", "g++", "-O2", "hdf5", "host"});
+                  {{.term = "drag", .on = true, .wanted = true, .ratio = 1, .reason = "there is a bed"}},
+                  {"0.1", "g++", "-O2", "hdf5", "host"});
   }
   double number(const std::string& sql) const { return number_in(database_.query(sql).rows.at(0).at(0)); }
 
@@ -140,5 +141,5 @@ TEST_F(ResultsTest, AnswerTheQuestionsOfTheDocumentation) {
   for (const std::string& sql : queries) EXPECT_FALSE(database_.query(sql).rows.empty()) << sql;
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

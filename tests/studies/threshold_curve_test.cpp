@@ -20,10 +20,13 @@ class ThresholdCurveTest : public ::testing::Test {
  protected:
   ThresholdCurveTest() { create_result_tables(database_); }
 
-  void add_seed(const std::string& set, int seed, double diameter, const std::string& status, double shields, double lower, double upper) {
+  void add_seed(const std::string& set, int seed, double diameter, const std::string& status, double shields,
+                double lower, double upper) {
     const std::string id = set + "-" + std::to_string(seed);
-    database_.execute("INSERT INTO scenes VALUES (?,?,?,?,?,?,0.05,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,1,'di_felice',1,1,1)",
-                      {id, id, set, "label-" + set, std::int64_t{seed}, diameter});
+    database_.execute(
+        "INSERT INTO scenes VALUES "
+        "(?,?,?,?,?,?,0.05,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,1,'di_felice',1,1,1)",
+        {id, id, set, "label-" + set, std::int64_t{seed}, diameter});
     database_.execute("INSERT INTO thresholds VALUES (?,'flux',0.01,1,?,?,?,?)",
                       {id, status, real_or_null(shields), real_or_null(lower), real_or_null(upper)});
     update_threshold_curve(database_);
@@ -95,11 +98,12 @@ TEST_F(ThresholdCurveTest, PrintsTheSameBytesInWhateverOrderTheCasesFinished) {
   add_seed("a", 2, 5e-4, "bracketed", 0.1 + 0.2, 0.13, 0.4);
   add_seed("a", 1, 5e-4, "censored_below", open_end, open_end, 0.06);
   const std::string csv = curve_as_csv(threshold_curve(database_));
-  EXPECT_EQ(csv,
-            "label,diameter_m,density_ratio,viscosity_m2_per_s,galileo,friction_reynolds,shields,shields_lower,shields_upper,"
-            "status,seeds,bracketed,censored_below,censored_above,noisy,parameter_set\n"
-            "label-a,0.0005,2,1e-05,3.5,2.2135943621178655,,,0.4,censored_below,2,1,1,0,0,a\n"
-            "label-b,0.0006,2,1e-05,3.5,1.5652475842498528,0.2,0.19,0.22,bracketed,1,1,0,0,0,b\n");
+  EXPECT_EQ(
+      csv,
+      "label,diameter_m,density_ratio,viscosity_m2_per_s,galileo,friction_reynolds,shields,shields_lower,shields_upper,"
+      "status,seeds,bracketed,censored_below,censored_above,noisy,parameter_set\n"
+      "label-a,0.0005,2,1e-05,3.5,2.2135943621178655,,,0.4,censored_below,2,1,1,0,0,a\n"
+      "label-b,0.0006,2,1e-05,3.5,1.5652475842498528,0.2,0.19,0.22,bracketed,1,1,0,0,0,b\n");
 }
 
 TEST_F(ThresholdCurveTest, WritesNumbersThatReadBackToTheSameBits) {
@@ -107,7 +111,8 @@ TEST_F(ThresholdCurveTest, WritesNumbersThatReadBackToTheSameBits) {
   const auto json = nlohmann::json::parse(curve_as_json(threshold_curve(database_)));
   EXPECT_EQ(json[0]["shields"].get<double>(), 0.1 + 0.2);
   EXPECT_EQ(json[0]["shields_upper"].get<double>(), 1.0 / 3);
-  EXPECT_NE(curve_as_csv(threshold_curve(database_)).find(",0.30000000000000004,0.1,0.3333333333333333,"), std::string::npos);
+  EXPECT_NE(curve_as_csv(threshold_curve(database_)).find(",0.30000000000000004,0.1,0.3333333333333333,"),
+            std::string::npos);
 }
 
 TEST_F(ThresholdCurveTest, ShowsOneSidedBoundsToPeopleAsInequalities) {
@@ -115,5 +120,5 @@ TEST_F(ThresholdCurveTest, ShowsOneSidedBoundsToPeopleAsInequalities) {
   EXPECT_NE(curve_as_table(threshold_curve(database_)).find("> 0.4400"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

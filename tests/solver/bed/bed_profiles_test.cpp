@@ -47,5 +47,5 @@ TEST(BedProfiles, WeighGrainVelocitiesBySlices) {
   EXPECT_NEAR(solid, 2 * sphere_volume(1), 1e-12);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

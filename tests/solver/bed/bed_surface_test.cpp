@@ -94,5 +94,5 @@ TEST(Coordination, CountsBothPartnersAndNoWalls) {
   EXPECT_EQ(coordination({}, 0), 0);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -35,20 +35,23 @@ TEST(ImposedFlow, UnderALidGivesTheStressOfTheShieldsNumber) {
 
 TEST(ImposedFlow, ReturnsToItsShieldsNumberThroughEveryQuantity) {
   for (const Top top : {Top::lid, Top::free_slip}) {
-    const ImposedFlow lid = imposed_flow(scene_with(FlowRamp::Kind::lid, FlowRamp::Quantity::shields, {0.17}, top), 0, bed_height);
+    const ImposedFlow lid =
+        imposed_flow(scene_with(FlowRamp::Kind::lid, FlowRamp::Quantity::shields, {0.17}, top), 0, bed_height);
     const Scene by_speed = scene_with(FlowRamp::Kind::lid, FlowRamp::Quantity::lid_speed, {lid.lid_speed}, top);
     EXPECT_NEAR(imposed_flow(by_speed, 0, bed_height).shields, 0.17, 1e-14);
 
     const Scene pressure = scene_with(FlowRamp::Kind::pressure, FlowRamp::Quantity::shields, {0.17}, top);
     const double gradient = imposed_flow(pressure, 0, bed_height).gradient;
-    const Scene by_gradient = scene_with(FlowRamp::Kind::pressure, FlowRamp::Quantity::gradient, {1000 * gradient}, top);
+    const Scene by_gradient =
+        scene_with(FlowRamp::Kind::pressure, FlowRamp::Quantity::gradient, {1000 * gradient}, top);
     EXPECT_NEAR(imposed_flow(by_gradient, 0, bed_height).shields, 0.17, 1e-14);
   }
 }
 
 TEST(ImposedFlow, OfAPressureDriveNeedsTwiceTheGradientUnderALidAtRest) {
   const auto gradient = [](Top top) {
-    return imposed_flow(scene_with(FlowRamp::Kind::pressure, FlowRamp::Quantity::shields, {0.1}, top), 0, bed_height).gradient;
+    return imposed_flow(scene_with(FlowRamp::Kind::pressure, FlowRamp::Quantity::shields, {0.1}, top), 0, bed_height)
+        .gradient;
   };
   EXPECT_DOUBLE_EQ(gradient(Top::lid), 2 * gradient(Top::free_slip));
 }
@@ -81,5 +84,5 @@ TEST(SteadyIncrement, MeetsTheLidAndLeavesTheBedAlone) {
   EXPECT_EQ(steady_increment(pressed, imposed_flow(pressed, 0, bed_height), bed_height, 6.5e-3), 0);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

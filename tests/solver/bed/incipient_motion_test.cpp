@@ -88,7 +88,8 @@ TEST(IncipientMotion, OfARecordWithoutHoldsIsNone) {
 }
 
 TEST(IncipientMotion, FollowsTheMovingFractionWhenThatIsTheCriterion) {
-  const auto onset = incipient_motion(ramp({0, 0, 0, 0, 0}), Onset::Criterion::moving_fraction, 0.025);   // 0, .01, .02, .03, .04
+  const auto onset =
+      incipient_motion(ramp({0, 0, 0, 0, 0}), Onset::Criterion::moving_fraction, 0.025);   // 0, .01, .02, .03, .04
   EXPECT_EQ(onset.status, OnsetStatus::bracketed);
   EXPECT_DOUBLE_EQ(onset.upper, 0.4);
 }
@@ -144,8 +145,8 @@ TEST(MotionEvents, CallAGrainMovingAboveAHundredthOfTheScale) {
 }
 
 TEST(GrainTime, IsTheSlowerOfInertiaAndSettling) {
-  EXPECT_NEAR(grain_time(1e-3, 2, 10, 1e3), 1e-2, 1e-12);    // sqrt(1e-3/10)
-  EXPECT_NEAR(grain_time(1e-3, 2, 10, 1e-3), 1, 1e-12);      // d/U_t
+  EXPECT_NEAR(grain_time(1e-3, 2, 10, 1e3), 1e-2, 1e-12);   // sqrt(1e-3/10)
+  EXPECT_NEAR(grain_time(1e-3, 2, 10, 1e-3), 1, 1e-12);     // d/U_t
   EXPECT_EQ(grain_time(1e-3, 1, 10, 0), 0);
 }
 
@@ -156,5 +157,5 @@ TEST(SurfaceGrains, CoverFourFifthsOfTheBed) {
   EXPECT_NEAR(surface_grains(scene), 244.46, 0.01);   // "244 surface grains" of a box 20 x 12 d
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload
