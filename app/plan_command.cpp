@@ -60,10 +60,13 @@ void print_models(const Plan& plan) {
 }
 
 void print_warnings(const Plan& plan) {
-  std::map<std::string, std::string> said;   // warning -> first case
+  std::vector<std::string> said;
   for (const auto& c : plan.cases)
-    for (const auto& warning : warnings_of(c.one.scene)) said.emplace(warning, c.one.label);
-  for (const auto& [warning, label] : said) fmt::print("\nwarning: {}: {}\n", label, warning);
+    for (const auto& warning : warnings_of(c.one.scene)) {
+      if (std::ranges::find(said, warning) != said.end()) continue;
+      fmt::print("\nwarning: {}: {}\n", c.one.label, warning);
+      said.push_back(warning);
+    }
 }
 
 void print_summary(const Study& study, const Plan& plan, const fs::path& results, int cores) {
@@ -74,7 +77,7 @@ void print_summary(const Study& study, const Plan& plan, const fs::path& results
     bytes += predicted_cost(c.one.scene).bytes;
   }
   const auto done = std::ranges::count(plan.cases, true, &PlannedCase::done);
-  fmt::print("{}: {} cases ({} new, {} kept, {} extended; {} done), {} dropped, {} beds; results in {}\n", study.name, plan.cases.size(),
+  fmt::print("{}: {} case{} ({} new, {} kept, {} extended; {} done), {} dropped, {} beds; results in {}\n", study.name, plan.cases.size(), plan.cases.size() == 1 ? "" : "s",
              count(Fate::fresh), count(Fate::kept), count(Fate::extended), done, plan.dropped.size(), plan.beds.size(), results.string());
   fmt::print("at most {:.3g} core-hours (a ramp ends two steps after onset), {} on {} cores; {:.1f} MB on disk\n\n", core_seconds / 3600,
              duration_text(core_seconds / std::max<double>(1, std::min<double>(cores, static_cast<double>(plan.cases.size())))), cores, bytes / 1e6);

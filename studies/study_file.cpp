@@ -209,7 +209,7 @@ bool Reader::in_range(const StudyKey& key, const std::string& name, const toml::
   const bool good = std::isfinite(value) && (key.range == Range::any || value > 0 || (key.range == Range::not_negative && value == 0));
   if (good) return true;
   const auto wanted = !std::isfinite(value) ? "finite" : key.range == Range::positive ? "greater than zero" : "zero or greater";
-  problems_.add(place_of(node), fmt::format("{}: {} must be {}", name, shown(node), wanted));
+  problems_.add(place_of(node), fmt::format("{}: {} must be {}", name, shown(node), wanted), fmt::format("give a value that is {}", wanted));
   return false;
 }
 

@@ -1,0 +1,133 @@
+// What the program refuses: exit code, message, and nothing written.
+#include <gtest/gtest.h>
+
+#include "base/durable_file.hpp"
+#include "tests/end_to_end/bedload_program.hpp"
+#include "tests/end_to_end/tiny_study.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace bedload {
+namespace {
+
+testing::AssertionResult says(const std::string& text, const std::string& part) {
+  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "\"" << part << "\" is not in: " << text;
+}
+
+class BadInput : public testing::Test {
+ protected:
+  Outcome run(const std::string& study, const std::vector<std::string>& more = {}) {
+    std::ofstream(here() / "tiny.toml") << study;
+    std::vector<std::string> arguments{"run", "tiny.toml"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return bedload(here(), arguments);
+  }
+  /// Refused with that code and message; no result directory.
+  void expect_refused(const std::string& study, int code, const std::string& message) {
+    const auto outcome = run(study);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_TRUE(says(outcome.err, message));
+    EXPECT_TRUE(says(outcome.err, "hint: "));
+    EXPECT_TRUE(outcome.out.empty());
+    EXPECT_FALSE(std::filesystem::exists(here() / "tiny"));
+  }
+  const std::filesystem::path& here() const { return directory_.path(); }
+
+ private:
+  TemporaryDirectory directory_;
+};
+
+TEST_F(BadInput, UnknownKey) {
+  expect_refused(with(tiny_study, "viscosity", "viskosity"), 65, "tiny.toml:6:1: error: fluid.viskosity is not a key of a study file\nhint: did you mean fluid.viscosity?");
+}
+TEST_F(BadInput, MissingUnit) { expect_refused(with(tiny_study, "\"1.0e-5 m2/s\"", "\"1.0e-5\""), 65, "tiny.toml:6:13: error: fluid.viscosity: \"1.0e-5\" has no unit"); }
+TEST_F(BadInput, WrongDimension) { expect_refused(with(tiny_study, "\"0.5 mm\"", "\"0.5 ms\""), 65, "tiny.toml:9:13: error: grains.diameter[1]: \"0.5 ms\" is a time, not a length"); }
+TEST_F(BadInput, ZeroDiameter) { expect_refused(with(tiny_study, "\"0.5 mm\"", "\"0 mm\""), 65, "tiny.toml:9:13: error: grains.diameter[1]: '0 mm' must be greater than zero"); }
+TEST_F(BadInput, NegativeDiameter) { expect_refused(with(tiny_study, "\"0.5 mm\"", "\"-1 mm\""), 65, "tiny.toml:9:13: error: grains.diameter[1]"); }
+TEST_F(BadInput, GrainsThatDoNotFitTheBox) { expect_refused(with(tiny_study, "count = 300", "count = 3000"), 65, "do not fit the box"); }
+TEST_F(BadInput, CellLargerThanTheBox) { expect_refused(with(tiny_study, "xy = \"2 d\"", "xy = \"7 d\""), 65, "larger than the box"); }
+TEST_F(BadInput, AxisOnAKeyThatIsNotPhysics) { expect_refused(with(tiny_study, "\"1 s\"", "[\"1 s\", \"2 s\"]"), 65, "run.checkpoint.every: a list is an axis, and this key is not physics"); }
+TEST_F(BadInput, DemStepAboveThreeTenthsOfARayleighTime) { expect_refused(tiny_study + "[steps]\ndem = \"0.1 ms\"\n", 65, "Rayleigh times of the smallest grain"); }
+TEST_F(BadInput, KeyOfALaterVersion) { expect_refused(tiny_study + "[onset]\nmethod = \"bisect\"\n", 65, "onset.method: \"bisect\" is not in this version"); }
+
+TEST_F(BadInput, OverlappingGrainsInTheTable) {
+  std::ofstream(here() / "bed.csv") << "x,y,z,diameter,density,fixed\n1e-3,1e-3,1e-3,5e-4,2000,0\n1.3e-3,1e-3,1e-3,5e-4,2000,0\n";
+  expect_refused(with(with(tiny_study, "count = 300", "source = \"file\"\nfile = \"bed.csv\""), "[\"0.5 mm\", \"0.6 mm\"]", "\"0.5 mm\""), 65, "overlap");
+}
+TEST_F(BadInput, TwoGrainsAtOnePlaceInTheTable) {
+  std::ofstream(here() / "bed.csv") << "x,y,z,diameter,density,fixed\n1e-3,1e-3,1e-3,5e-4,2000,0\n1e-3,1e-3,1e-3,5e-4,2000,0\n";
+  expect_refused(with(with(tiny_study, "count = 300", "source = \"file\"\nfile = \"bed.csv\""), "[\"0.5 mm\", \"0.6 mm\"]", "\"0.5 mm\""), 65, "bed.file: ");
+}
+
+TEST_F(BadInput, UnwritableDirectory) {
+  const auto outcome = run(tiny_study, {"--out", "/proc/bedload"});
+  EXPECT_EQ(outcome.code, 74) << outcome.err;
+  EXPECT_TRUE(says(outcome.err, "/proc/bedload"));
+}
+
+TEST_F(BadInput, ResultDirectoryThatIsAFile) {
+  std::ofstream(here() / "tiny") << "mine";
+  EXPECT_EQ(run(tiny_study).code, 74);
+  EXPECT_EQ(contents(here() / "tiny"), "mine");
+}
+
+TEST_F(BadInput, MissingStudy) {
+  const auto outcome = bedload(here(), {"run", "nowhere.toml"});
+  EXPECT_EQ(outcome.code, 66);
+  EXPECT_TRUE(says(outcome.err, "nowhere.toml"));
+}
+
+TEST_F(BadInput, UnknownCommandAndOptionAndLaterCommand) {
+  EXPECT_EQ(bedload(here(), {"rum", "tiny.toml"}).code, 2);
+  EXPECT_EQ(bedload(here(), {"run", "tiny.toml", "--fast"}).code, 2);
+  EXPECT_EQ(bedload(here(), {}).code, 2);
+  const auto later = bedload(here(), {"trade", "tiny.toml"});
+  EXPECT_EQ(later.code, 69);
+  EXPECT_TRUE(says(later.err, "`bedload trade` is not in this version"));
+}
+
+TEST_F(BadInput, StudyLockedByALiveProcess) {
+  ASSERT_EQ(run(tiny_study, {"--prepare"}).code, 0);
+  const auto before = contents(here() / "tiny" / "study.toml");
+  const auto lock = FileLock::try_lock(here() / "tiny" / "lock");
+  ASSERT_TRUE(lock);
+  const auto outcome = run(with(tiny_study, "ratio = 1.5", "ratio = 1.6"));
+  EXPECT_EQ(outcome.code, 73);
+  EXPECT_TRUE(says(outcome.err, "pid " + std::to_string(::getpid()) + " on host "));
+  EXPECT_TRUE(says(outcome.err, "for "));
+  EXPECT_EQ(contents(here() / "tiny" / "study.toml"), before);
+}
+
+TEST_F(BadInput, DatabaseOfANewerVersion) {
+  ASSERT_EQ(run(tiny_study, {"--prepare"}).code, 0);
+  for (const char* end : {"-wal", "-shm"}) std::filesystem::remove((here() / "tiny" / "study.db").string() + end);
+  // PRAGMA user_version stands at byte 60 of an SQLite file, big-endian.
+  std::fstream file(here() / "tiny" / "study.db", std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(60).write("\0\0\3\347", 4);
+  file.close();
+  const auto before = contents(here() / "tiny" / "study.db");
+  const auto outcome = run(tiny_study);
+  EXPECT_EQ(outcome.code, 76) << outcome.err;
+  EXPECT_TRUE(says(outcome.err, "of a newer bedload"));
+  EXPECT_EQ(contents(here() / "tiny" / "study.db"), before);
+}
+
+TEST_F(BadInput, QueryThatWrites) {
+  ASSERT_EQ(run(tiny_study, {"--prepare"}).code, 0);
+  EXPECT_EQ(bedload(here(), {"query", "tiny.toml", "DELETE FROM cases"}).code, 2);
+  const auto outcome = bedload(here(), {"query", "tiny.toml", "SELECT count(*) AS n FROM cases WHERE kind = 'case'", "--csv"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out, "n\n4\n");
+}
+
+TEST_F(BadInput, StudyWhoseCasesWouldAllBeDropped) {
+  ASSERT_EQ(run(tiny_study, {"--prepare"}).code, 0);
+  const auto changed = with(tiny_study, "dwell = \"5 td\"", "dwell = \"6 td\"");
+  const auto outcome = run(changed, {"--prepare"});
+  EXPECT_EQ(outcome.code, 65);
+  EXPECT_TRUE(says(outcome.err, "--replace"));
+  EXPECT_EQ(run(changed, {"--prepare", "--replace"}).code, 0);
+}
+
+}  // namespace
+}  // namespace bedload

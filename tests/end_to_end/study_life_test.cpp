@@ -1,0 +1,158 @@
+// The life of a study: run, run again, changed, extended, moved, rebuilt.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/end_to_end/bedload_program.hpp"
+#include "tests/end_to_end/tiny_study.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace bedload {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One case that takes a second.
+const std::string small_study = with(with(with(with(with(with(tiny_study, "[\"0.5 mm\", \"0.6 mm\"]", "\"0.5 mm\""), "[\"2000 kg/m3\", \"3000 kg/m3\"]", "[\"3000 kg/m3\"]"),
+                                                    "count = 300", "count = 100"),
+                                               "length = \"10 d\"", "length = \"6 d\""),
+                                          "shields = { from = 0.1, ratio = 1.5, steps = 4 }", "shields = { from = 0.01, ratio = 1.1, steps = 2 }"),
+                                     "dwell = \"5 td\"", "dwell = \"1 td\"");
+
+class StudyLife : public testing::Test {
+ protected:
+  Outcome run(const std::string& study, std::vector<std::string> more = {}) {
+    std::ofstream(here() / "tiny.toml") << study;
+    more.insert(more.begin(), {"run", "tiny.toml", "--cores", "2"});
+    return bedload(here(), more);
+  }
+  int attempts(const std::string& label) const {
+    int n = 0;
+    while (fs::exists(here() / "tiny" / "by-label" / label / ("attempt." + std::to_string(n + 1) + ".json"))) ++n;
+    return n;
+  }
+  std::string digest(const std::string& label) const { return bedload(here(), {"inspect", "tiny/by-label/" + label, "--digest"}).out; }
+  std::string csv() const { return bedload(here(), {"curve", "tiny.toml", "--csv"}).out; }
+  const fs::path& here() const { return directory_.path(); }
+
+ private:
+  TemporaryDirectory directory_;
+};
+
+TEST_F(StudyLife, RunsNothingWhenFinishedAndOnlyWhatIsNew) {
+  ASSERT_EQ(run(small_study).code, 0);
+  EXPECT_EQ(attempts("rho3000-s1"), 1);
+  const auto first = csv();
+  ASSERT_EQ(run(small_study).code, 0);
+  EXPECT_EQ(attempts("rho3000-s1"), 1);
+  EXPECT_EQ(csv(), first);
+
+  ASSERT_EQ(run(with(small_study, "[\"3000 kg/m3\"]", "[\"3000 kg/m3\", \"2500 kg/m3\"]")).code, 0);
+  EXPECT_EQ(attempts("rho3000-s1"), 1);
+  EXPECT_EQ(attempts("rho2500-s1"), 1);
+  EXPECT_EQ(std::ranges::count(csv(), '\n'), 3);   // heading and two sets
+
+  ASSERT_EQ(run(with(small_study, "[\"3000 kg/m3\"]", "[\"2500 kg/m3\"]")).code, 0);   // one is dropped
+  EXPECT_EQ(std::ranges::count(csv(), '\n'), 2);
+}
+
+TEST_F(StudyLife, ContinuesTheFinalCheckpointWhenTheRampGrowsLonger) {
+  ASSERT_EQ(run(small_study).code, 0);
+  const auto plan = [&] {
+    return bedload(here(), {"plan", "tiny.toml", "--csv"}).out;
+  };
+  const auto longer = with(small_study, "steps = 2", "steps = 4");
+  std::ofstream(here() / "tiny.toml") << longer;
+  EXPECT_NE(plan().find("extended"), std::string::npos) << plan();
+  ASSERT_EQ(run(longer).code, 0);
+  EXPECT_EQ(attempts("rho3000-s1"), 2);
+  const auto continued = digest("rho3000-s1");
+  fs::rename(here() / "tiny", here() / "earlier");
+  ASSERT_EQ(run(longer).code, 0);
+  EXPECT_EQ(attempts("rho3000-s1"), 1);
+  EXPECT_EQ(digest("rho3000-s1"), continued);
+}
+
+TEST_F(StudyLife, RecomputesResultsWithoutRunningWhenTheCriterionChanges) {
+  ASSERT_EQ(run(small_study).code, 0);
+  const std::vector<std::string> query{"query", "tiny.toml", "SELECT value FROM thresholds WHERE decides", "--csv"};
+  EXPECT_EQ(bedload(here(), query).out, "value\n0.01\n");
+  ASSERT_EQ(run(small_study + "[onset]\nvalue = 0.5\n").code, 0);
+  EXPECT_EQ(bedload(here(), query).out, "value\n0.5\n");
+  EXPECT_EQ(attempts("rho3000-s1"), 1);
+}
+
+TEST_F(StudyLife, RebuildsTheDatabaseFromTheDirectories) {
+  ASSERT_EQ(run(small_study).code, 0);
+  const auto before = csv();
+  ASSERT_EQ(run(small_study, {"--rescan"}).code, 0);
+  EXPECT_EQ(csv(), before);
+  EXPECT_EQ(attempts("rho3000-s1"), 1);
+}
+
+TEST_F(StudyLife, GoesOnAfterTheResultDirectoryWasMoved) {
+  ASSERT_EQ(run(small_study).code, 0);
+  const auto before = csv();
+  fs::create_directory(here() / "elsewhere");
+  fs::rename(here() / "tiny", here() / "elsewhere" / "moved");
+  EXPECT_EQ(bedload(here(), {"curve", "elsewhere/moved", "--csv"}).out, before);
+  EXPECT_EQ(bedload(here(), {"run", "elsewhere/moved"}).code, 0);
+  EXPECT_EQ(bedload(here(), {"status", "elsewhere/moved"}).code, 0);
+}
+
+TEST_F(StudyLife, StopsAtCtrlCWithACheckpointAndGoesOnToTheSameBits) {
+  const auto slow = with(small_study, "dwell = \"1 td\"", "dwell = \"30 td\"");
+  std::ofstream(here() / "tiny.toml") << slow;
+  Process first(here(), {"run", "tiny.toml", "--cores", "2"});
+  const auto log = here() / "tiny" / "by-label" / "rho3000-s1" / "status.json";
+  for (int n = 0; n < 1000 && !fs::exists(log); ++n) ::usleep(10'000);
+  ::kill(first.pid(), SIGINT);
+  const auto stopped = first.wait();
+  EXPECT_EQ(stopped.code, 75) << stopped.err;
+  EXPECT_NE(stopped.err.find("stopping"), std::string::npos) << stopped.err;
+  ASSERT_EQ(run(slow).code, 0);
+  EXPECT_EQ(attempts("rho3000-s1"), 2);
+  const auto resumed = digest("rho3000-s1");
+  fs::rename(here() / "tiny", here() / "earlier");
+  ASSERT_EQ(run(slow).code, 0);
+  EXPECT_EQ(digest("rho3000-s1"), resumed);
+}
+
+TEST_F(StudyLife, RunsAPreparedCaseByHand) {
+  ASSERT_EQ(run(with(small_study, "count = 100", "source = \"none\""), {"--prepare"}).code, 0);
+  const auto label = "tiny/by-label/rho3000";
+  const auto until = bedload(here(), {"case", label, "--until", "1 ms"});
+  EXPECT_EQ(until.code, 0) << until.err;
+  EXPECT_NE(until.out.find("run it again to go on"), std::string::npos) << until.out;
+  EXPECT_NE(until.out.find("model seconds per hour"), std::string::npos);
+  EXPECT_EQ(bedload(here(), {"case", label}).code, 0);
+  EXPECT_EQ(bedload(here(), {"case", label}).out, "finished already\n");
+  EXPECT_EQ(bedload(here(), {"case", "nowhere"}).code, 66);
+}
+
+TEST_F(StudyLife, StartsFromTheTemplateOfNew) {
+  ASSERT_EQ(bedload(here(), {"new", "shields"}).code, 0);
+  const auto plan = bedload(here(), {"plan", "shields.toml"});
+  EXPECT_EQ(plan.code, 0) << plan.err;
+  EXPECT_NE(plan.out.find("4 cases (4 new"), std::string::npos) << plan.out;
+  EXPECT_FALSE(fs::exists(here() / "shields"));
+  EXPECT_EQ(bedload(here(), {"new", "shields"}).code, 2);
+}
+
+TEST_F(StudyLife, ExplainsACase) {
+  ASSERT_EQ(run(small_study).code, 0);
+  const auto explained = bedload(here(), {"explain", "tiny.toml", "rho3000-s1"});
+  EXPECT_EQ(explained.code, 0);
+  for (const auto* part : {"it is done and is reused", "attempt 1", "viscous_torque", "Galileo number", "DEM step"})
+    EXPECT_NE(explained.out.find(part), std::string::npos) << part << "\n" << explained.out;
+  EXPECT_EQ(bedload(here(), {"explain", "tiny.toml", "rho9"}).code, 66);
+}
+
+TEST_F(StudyLife, WritesAReport) {
+  ASSERT_EQ(run(small_study).code, 0);
+  EXPECT_EQ(bedload(here(), {"report", "tiny.toml"}).code, 0);
+  EXPECT_NE(contents(here() / "tiny" / "report.html").find("<svg"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bedload
