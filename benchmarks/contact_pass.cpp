@@ -53,7 +53,7 @@ void advance_bed(benchmark::State& state, double shear) {
   for (std::size_t i = 0; i < bed.grains.size(); ++i) {
     if (bed.grains.position[i].z < top - 4e-3) continue;
     push[i].x = shear * 6.54;
-    relaxation[i] = 20;
+    relaxation[i] = 100;
   }
   constexpr int substeps = 10;
   GrainHealth health;

@@ -11,25 +11,51 @@ constexpr std::size_t block_size = 64;   // its arrays stay in the first-level c
 /// Relative motion of a block of pairs, and what the law makes of it: structure of arrays.
 struct alignas(64) PairBlock {
   using Lane = double[block_size];
-  Lane dx, dy, dz;           // from the lower to the higher grain [m]
-  Lane vx, vy, vz;           // velocity of the lower relative to the higher, without spin [m/s]
-  Lane radius_a, radius_b;   // [m]
-  Lane ax, ay, az;           // spin of the lower [rad/s]
-  Lane bx, by, bz;           // of the higher
-  Lane fx, fy, fz;           // force on the lower [N]
-  Lane tx, ty, tz;           // normal x force [N]: torque per lever arm, the same on both
+  Lane dx, dy, dz, radius_difference;   // from the lower to the higher grain, r_j - r_i [m]
+  Lane vx, vy, vz, radius_sum;          // velocity of the lower relative to the higher, without spin [m/s]; [m]
+  Lane ax, ay, az, unused_a;            // spin of the lower [rad/s]
+  Lane bx, by, bz, unused_b;            // of the higher
+  Lane fx, fy, fz;                      // force on the lower [N]
+  Lane tx, ty, tz;                      // normal x force [N]: torque per lever arm, the same on both
+  Lane arm_a, arm_b;                    // lever arms [m]
 };
+
+// Grains lie in rows of four numbers, the law wants pairs side by side: rows are loaded whole and turned in registers.
+using Row = double __attribute__((vector_size(32), may_alias));
+
+inline Row load_row(const double* at) { return *static_cast<const Row*>(__builtin_assume_aligned(at, 32)); }
+inline void store_row(double* at, Row row) { *static_cast<Row*>(__builtin_assume_aligned(at, 32)) = row; }
+
+inline void store_columns(const Row (&row)[4], double* x, double* y, double* z, double* fourth) {
+  const Row ab02 = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6);
+  const Row ab13 = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7);
+  const Row cd02 = __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6);
+  const Row cd13 = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
+  store_row(x, __builtin_shufflevector(ab02, cd02, 0, 1, 4, 5));
+  store_row(y, __builtin_shufflevector(ab13, cd13, 0, 1, 4, 5));
+  store_row(z, __builtin_shufflevector(ab02, cd02, 2, 3, 6, 7));
+  store_row(fourth, __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7));
+}
 
 void fetch(std::span<const Body> bodies, const PairContacts& pairs, std::size_t first, std::size_t count,
            PairBlock& b) noexcept {
-  for (std::size_t k = 0; k < count; ++k) {
-    const Body& i = bodies[pairs.ids.lower[first + k]];
-    const Body& j = bodies[pairs.ids.higher[first + k]];
-    b.dx[k] = j.position.x - i.position.x, b.dy[k] = j.position.y - i.position.y, b.dz[k] = j.position.z - i.position.z;
-    b.vx[k] = i.velocity.x - j.velocity.x, b.vy[k] = i.velocity.y - j.velocity.y, b.vz[k] = i.velocity.z - j.velocity.z;
-    b.radius_a[k] = i.radius, b.radius_b[k] = j.radius;
-    b.ax[k] = i.spin.x, b.ay[k] = i.spin.y, b.az[k] = i.spin.z;
-    b.bx[k] = j.spin.x, b.by[k] = j.spin.y, b.bz[k] = j.spin.z;
+  for (std::size_t k = 0; k < count; k += 4) {
+    Row apart[4], velocity[4], spin_a[4], spin_b[4];
+    for (std::size_t n = 0; n < 4; ++n) {
+      const std::size_t pair = first + std::min(k + n, count - 1);   // past the end: the last one again, never used
+      const Body& i = bodies[pairs.ids.lower[pair]];
+      const Body& j = bodies[pairs.ids.higher[pair]];
+      const Row place_i = load_row(&i.position.x), place_j = load_row(&j.position.x);
+      const Row relative = load_row(&i.velocity.x) - load_row(&j.velocity.x);
+      apart[n] = place_j - place_i;
+      velocity[n] = __builtin_shufflevector(relative, place_i + place_j, 0, 1, 2, 7);
+      spin_a[n] = load_row(&i.spin.x);
+      spin_b[n] = load_row(&j.spin.x);
+    }
+    store_columns(apart, b.dx + k, b.dy + k, b.dz + k, b.radius_difference + k);
+    store_columns(velocity, b.vx + k, b.vy + k, b.vz + k, b.radius_sum + k);
+    store_columns(spin_a, b.ax + k, b.ay + k, b.az + k, b.unused_a + k);
+    store_columns(spin_b, b.bx + k, b.by + k, b.bz + k, b.unused_b + k);
   }
 }
 
@@ -43,12 +69,13 @@ void respond(const HertzMindlin& law, const PeriodicBox& box, double dt, const P
     const Vec3 apart = box.shortest({b.dx[k], b.dy[k], b.dz[k]});
     const double distance = norm(apart);
     Overlap o;
-    o.depth = b.radius_a[k] + b.radius_b[k] - distance;
+    o.depth = b.radius_sum[k] - distance;
     o.root_radius = root_radius[k];
     o.mass = mass[k];
     o.normal = apart * (1 / distance);
-    const Vec3 spin = (b.radius_a[k] - 0.5 * o.depth) * Vec3{b.ax[k], b.ay[k], b.az[k]} +
-                      (b.radius_b[k] - 0.5 * o.depth) * Vec3{b.bx[k], b.by[k], b.bz[k]};
+    const double arm_a = 0.5 * (distance - b.radius_difference[k]);
+    const double arm_b = 0.5 * (distance + b.radius_difference[k]);
+    const Vec3 spin = arm_a * Vec3{b.ax[k], b.ay[k], b.az[k]} + arm_b * Vec3{b.bx[k], b.by[k], b.bz[k]};
     o.velocity = Vec3{b.vx[k], b.vy[k], b.vz[k]} + cross(spin, o.normal);
     const ContactForce r = law.respond(o, {sx[k], sy[k], sz[k]}, dt);
     const Vec3 turn = cross(o.normal, r.force);
@@ -56,26 +83,29 @@ void respond(const HertzMindlin& law, const PeriodicBox& box, double dt, const P
     sx[k] = r.spring.x, sy[k] = r.spring.y, sz[k] = r.spring.z;
     b.fx[k] = r.force.x, b.fy[k] = r.force.y, b.fz[k] = r.force.z;
     b.tx[k] = turn.x, b.ty[k] = turn.y, b.tz[k] = turn.z;
+    b.arm_a[k] = arm_a, b.arm_b[k] = arm_b;
   }
 }
 
-// The lower grain of a row of pairs is the same: its sum stays in registers until the row ends.
+// The lower grain of a run of pairs is the same: its sum stays in registers until the run ends.
 void add_up(const PairContacts& pairs, std::size_t first, std::size_t count, const PairBlock& b,
             std::span<Load> loads) noexcept {
-  for (std::size_t k = 0; k < count;) {
-    const std::uint32_t lower = pairs.ids.lower[first + k];
-    Load sum = loads[lower];
-    for (; k < count && pairs.ids.lower[first + k] == lower; ++k) {
-      const Vec3 force{b.fx[k], b.fy[k], b.fz[k]}, turn{b.tx[k], b.ty[k], b.tz[k]};
-      const double half = 0.5 * pairs.depth[first + k];
-      sum.force += force;
-      sum.torque += (b.radius_a[k] - half) * turn;
-      Load& other = loads[pairs.ids.higher[first + k]];
-      other.force -= force;
-      other.torque += (b.radius_b[k] - half) * turn;
+  std::uint32_t lower = pairs.ids.lower[first];
+  Row force = load_row(&loads[lower].force.x), torque = load_row(&loads[lower].torque.x);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (pairs.ids.lower[first + k] != lower) {
+      store_row(&loads[lower].force.x, force), store_row(&loads[lower].torque.x, torque);
+      lower = pairs.ids.lower[first + k];
+      force = load_row(&loads[lower].force.x), torque = load_row(&loads[lower].torque.x);
     }
-    loads[lower] = sum;
+    const Row pair_force{b.fx[k], b.fy[k], b.fz[k], 0}, turn{b.tx[k], b.ty[k], b.tz[k], 0};
+    Load& other = loads[pairs.ids.higher[first + k]];
+    force += pair_force;
+    torque += b.arm_a[k] * turn;
+    store_row(&other.force.x, load_row(&other.force.x) - pair_force);
+    store_row(&other.torque.x, load_row(&other.torque.x) + b.arm_b[k] * turn);
   }
+  store_row(&loads[lower].force.x, force), store_row(&loads[lower].torque.x, torque);
 }
 
 }   // namespace

@@ -6,11 +6,12 @@
 namespace bedload {
 namespace {
 
-// Wide enough for some tens of steps of a moving grain, narrow for one at rest: most listed pairs touch.
+// Wide enough for some tens of steps of a moving grain, narrow for one at rest: most listed pairs touch. (Measured: 12 to
+// 30 steps cost the same in an eroding bed, 50 a tenth more.)
 double skin_of(const Body& body, double dt) {
   if (body.inverse_mass == 0) return 0;
   const double diameter = 2 * body.radius;
-  return std::min(0.01 * diameter + 1.3 * 50 * dt * norm(body.velocity), 0.2 * diameter);
+  return std::min(0.01 * diameter + 1.3 * 25 * dt * norm(body.velocity), 0.2 * diameter);
 }
 
 double reduced_mass(const Body& a, const Body& b) { return 1 / (a.inverse_mass + b.inverse_mass); }

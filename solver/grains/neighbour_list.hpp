@@ -44,7 +44,7 @@ class NeighbourList {
   bool covers(std::span<const Body> bodies) noexcept;
   /// The same, for grains that have only moved since `covers` or `rebuild`.
   bool still_covers(std::span<const Body> bodies) const noexcept;
-  /// Makes the list anew for these bodies, and carries `history` into it. A skin lasts about 50 steps dt.
+  /// Makes the list anew for these bodies, and carries `history` into it. A skin lasts about 25 steps dt.
   void rebuild(std::span<const Body> bodies, double dt, const ContactHistory& history);
   /// Hands the springs of `history` to the list. Every pair in it must be listed (it touched when it was saved).
   void load(const ContactHistory& history);
