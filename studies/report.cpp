@@ -148,10 +148,11 @@ std::string health_section(const Database& database) {
     rows += "<tr>" + text_cell(cause) + number_cell(number_in(row[1]), "{:.0f}") +
             number_cell(number_in(row[2]) / 3600, "{:.3g}") + "</tr>\n";
   }
-  return section("Run health",
-                 "Every attempt at every case, by the cause of its end. Work after the last checkpoint of an attempt "
-                 "is done again by the next.",
-                 html_table(rows));
+  return section(
+      "Run health",
+      "Every attempt at every case and bed, by the cause of its end. Work after the last checkpoint of an attempt "
+      "is done again by the next.",
+      html_table(rows));
 }
 
 std::string provenance_section(const Database& database, const ReportRequest& request) {
@@ -182,9 +183,9 @@ std::string provenance_section(const Database& database, const ReportRequest& re
   }
   return section(
       "Provenance",
-      "The same study gives the same bits. This command makes the page again from the study; the tables behind every "
-      "figure are "
-      "<code>threshold_curve</code>, <code>ramp_points</code>, <code>samples</code> and <code>bed_statistics</code>.",
+      "The same study gives the same bits. This command reproduces every number, <code>bedload report</code> draws the "
+      "page again; the tables behind the figures are <code>threshold_curve</code>, <code>ramp_points</code>, "
+      "<code>samples</code> and <code>bed_statistics</code>.",
       body);
 }
 
