@@ -45,6 +45,8 @@ class MultigridLevel {
     int parity, count;
   };
 
+  /// Kernels run over whole vectors of four; half a row has room for that.
+  static constexpr int padded(int cells_of_a_colour) { return (cells_of_a_colour + 3) / 4 * 4; }
   std::size_t row(int i, int j) const { return (std::size_t(i + 1) * (cells_[1] + 2) + (j + 1)) * 2 * half_; }
   std::size_t at(int i, int j, int k) const { return row(i, j) + (k & 1) * half_ + ((k + 2) >> 1); }
   ColouredRow coloured_row(int i, int j, Colour) const noexcept;
