@@ -21,7 +21,8 @@ FaceFields random_velocity(const StaggeredGrid& g) {
   FaceFields u(g);
   std::mt19937 random(3);
   for (int c = 0; c < 3; ++c)
-    for (std::size_t n = 0; n < g.padded_size(); ++n) u.component(c)[n] = 1e-3 * (double(random()) / random.max() - 0.5);
+    for (std::size_t n = 0; n < g.padded_size(); ++n)
+      u.component(c)[n] = 1e-3 * (double(random()) / random.max() - 0.5);
   fill_velocity_ghosts(g, u, 0);
   return u;
 }
@@ -77,12 +78,16 @@ void step_without_grains(benchmark::State& state) {
 }
 
 void boxes(benchmark::internal::Benchmark* b) {
-  b->ArgNames({"nx", "ny", "nz"})->Args({10, 6, 26})->Args({32, 32, 40})->Args({64, 64, 80})->Unit(benchmark::kMicrosecond);
+  b->ArgNames({"nx", "ny", "nz"})
+      ->Args({10, 6, 26})
+      ->Args({32, 32, 40})
+      ->Args({64, 64, 80})
+      ->Unit(benchmark::kMicrosecond);
 }
 BENCHMARK(velocity_ghosts)->Apply(boxes);
 BENCHMARK(momentum_transport)->Apply(boxes);
 BENCHMARK(gradient_divergence_laplacian)->Apply(boxes);
 BENCHMARK(step_without_grains)->Apply(boxes);
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

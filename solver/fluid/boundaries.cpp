@@ -13,8 +13,8 @@ struct Image {
   double of(double value) const noexcept { return sign == 0 ? 0.0 : offset + sign * value; }
 };
 
-/// Fills layers of one direction from others, in the order of the images: inner layers come before outer ones, so that a
-/// box one cell wide reflects its own reflections.
+/// Fills layers of one direction from others, in the order of the images: inner layers come before outer ones, so that
+/// a box one cell wide reflects its own reflections.
 void fill_layers(const StaggeredGrid& g, double* field, int direction, std::initializer_list<Image> images) noexcept {
   constexpr int ghosts = StaggeredGrid::ghosts;
   const std::ptrdiff_t step = g.stride(direction);

@@ -5,14 +5,15 @@
 
 namespace bedload {
 
-/// Fills both ghost layers of a velocity: periodic copy; at walls normal faces 0 and n are zero and the field beyond is odd,
-/// tangential ghosts reflect about the wall's speed (u = lid_speed on the lid, even under a free-slip top).
+/// Fills both ghost layers of a velocity: periodic copy; at walls normal faces 0 and n are zero and the field beyond is
+/// odd, tangential ghosts reflect about the wall's speed (u = lid_speed on the lid, even under a free-slip top).
 void fill_velocity_ghosts(const StaggeredGrid&, FaceFields& velocity, double lid_speed);
 
 /// The same for a centre field: periodic copy, even at walls (zero normal gradient).
 void fill_centre_ghosts(const StaggeredGrid&, Field<Centre>&);
 
-/// Face quantities that are no velocity (flux, void fraction, coefficient): periodic copy; nothing beyond walls is read.
+/// Face quantities that are no velocity (flux, void fraction, coefficient): periodic copy; nothing beyond walls is
+/// read.
 void fill_face_ghosts(const StaggeredGrid&, FaceFields&);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -40,4 +40,4 @@ inline void clear_walls(const StaggeredGrid& g, FaceFields& f) noexcept {
   }
 }
 
-}  // namespace bedload
+}   // namespace bedload

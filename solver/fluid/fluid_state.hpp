@@ -12,9 +12,9 @@ struct FluidState {
   explicit FluidState(const StaggeredGrid& g) : velocity(g), pressure(g) {}
   bool operator==(const FluidState&) const = default;
 
-  FaceFields velocity;      // u, v, w [m/s]
-  Field<Centre> pressure;   // q [m2/s2]
+  FaceFields velocity;          // u, v, w [m/s]
+  Field<Centre> pressure;       // q [m2/s2]
   double column_gradient = 0;   // uniform -dq/dz that keeps a z-periodic box free of net volume flux [m/s2]
 };
 
-}  // namespace bedload
+}   // namespace bedload

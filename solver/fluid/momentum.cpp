@@ -21,7 +21,8 @@ inline double upwind_value(double flux, double below, double low, double high, d
   return upwind + (product > 0 ? product / (ahead + behind) : 0.0);
 }
 
-/// Momentum flux through a row of sides along t, of the control volumes of component c; side k lies below face `upper + k`.
+/// Momentum flux through a row of sides along t, of the control volumes of component c; side k lies below face `upper +
+/// k`.
 void row_of_sides(const StaggeredGrid& g, int c, int t, std::size_t upper, int length, const double* flux,
                   const double* correction, const double* velocity, double* out) noexcept {
   const std::ptrdiff_t s = g.stride(t);

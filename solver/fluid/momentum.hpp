@@ -12,10 +12,11 @@ struct TransportScratch {
 };
 
 /// u_f = [eps_f u_f - dt sum F u_face/h]/eps'_f on every unknown face, with F the volume flux [m/s] whose divergence is
-/// -d(eps)/dt, averaged to the control volume of each face and corrected along the face's own direction so that a uniform
-/// flow stays uniform and momentum is conserved (numerics: "transport with exact momentum"); u_face by van Leer's TVD limiter.
-/// `flux` [m/s] has filled ghosts and is zero on walls; the void fractions are read on faces 0..n, without ghosts.
-/// `velocity` has both ghost layers filled on entry and none on return. First order in time, TVD for CFL <= 0.5.
+/// -d(eps)/dt, averaged to the control volume of each face and corrected along the face's own direction so that a
+/// uniform flow stays uniform and momentum is conserved (docs/physics_fluid.md, F10 to F12); u_face by van
+/// Leer's TVD limiter. `flux` [m/s] has filled ghosts and is zero on walls; the void fractions are read on faces 0..n,
+/// without ghosts. `velocity` has both ghost layers filled on entry and none on return. First order in time, TVD for
+/// CFL <= 0.5.
 void transport(const StaggeredGrid&, const FaceFields& flux, const FaceFields& void_before,
                const FaceFields& void_after, double dt, FaceFields& velocity, TransportScratch&);
 

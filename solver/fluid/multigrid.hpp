@@ -7,10 +7,10 @@
 
 namespace bedload {
 
-/// Red-black Gauss-Seidel, piecewise-constant transfer, coarse coupling = sum of the fine couplings across the interface,
-/// halved along coarsened directions; only the strongly coupled directions are coarsened until cells are nearly cubic.
-/// Symmetric positive (semi-)definite: after the coarse correction the colours run in reverse order, and neighbours of one
-/// colour across an odd periodic seam see each other's old values.
+/// Red-black Gauss-Seidel, piecewise-constant transfer, coarse coupling = sum of the fine couplings across the
+/// interface, halved along coarsened directions; only the strongly coupled directions are coarsened until cells are
+/// nearly cubic. Symmetric positive (semi-)definite: after the coarse correction the colours run in reverse order, and
+/// neighbours of one colour across an odd periodic seam see each other's old values.
 class Multigrid {
  public:
   explicit Multigrid(const StaggeredGrid&);

@@ -7,8 +7,8 @@
 
 namespace bedload {
 
-/// Cells stored as x-planes of y-rows with one ghost layer. Each row is split into its even and its odd k, so that the cells of
-/// one colour of a row are contiguous, and every neighbour of theirs too. Walls are faces without coupling.
+/// Cells stored as x-planes of y-rows with one ghost layer. Each row is split into its even and its odd k, so that the
+/// cells of one colour of a row are contiguous, and every neighbour of theirs too. Walls are faces without coupling.
 class MultigridLevel {
  public:
   MultigridLevel(std::array<int, 3> cells, std::array<bool, 3> periodic);

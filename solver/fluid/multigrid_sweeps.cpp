@@ -8,7 +8,8 @@
 namespace bedload {
 namespace {
 
-/// A row of cells of one colour with all that its stencil reads: couplings w and neighbours x, lower and upper along each direction.
+/// A row of cells of one colour with all that its stencil reads: couplings w and neighbours x, lower and upper along
+/// each direction.
 struct Stencil {
   const float *wx, *wx_up, *wy, *wy_up, *wz, *wz_up;
   const float *x, *x_up, *y, *y_up, *z, *z_up;

@@ -14,10 +14,11 @@ void divergence(const StaggeredGrid&, const FaceFields& flux, Field<Centre>& out
 /// Laplacian of each component on every unknown face; zero on walls. Reads one filled ghost layer.
 void laplacian(const StaggeredGrid&, const FaceFields& velocity, FaceFields& out);
 
-/// Force of the fluid on the bottom and on the lid (or top) per rho_f: nu du/dz integrated over the wall [m4/s2], components x and y.
+/// Force of the fluid on the bottom and on the lid (or top) per rho_f: nu du/dz integrated over the wall [m4/s2],
+/// components x and y.
 struct WallShear {
   Vec3 bottom, top;
 };
 WallShear wall_shear(const StaggeredGrid&, const FaceFields& velocity, double viscosity);
 
-}  // namespace bedload
+}   // namespace bedload

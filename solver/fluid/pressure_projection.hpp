@@ -19,14 +19,15 @@ class PressureSolver {
   explicit PressureSolver(const StaggeredGrid&);
   ~PressureSolver();
 
-  /// `coefficient` c on faces (> 0 on unknown faces; walls carry no flux whatever stands there); `rhs` on centres, its mean is removed.
-  /// `p` on entry is the first guess, on return the solution with zero mean and filled ghosts.
-  /// Stops when the residual 2-norm is below max(relative |rhs|, absolute * sqrt(cells)).
-  PressureSolve solve(const FaceFields& coefficient, const Field<Centre>& rhs, Field<Centre>& p, double relative, double absolute);
+  /// `coefficient` c on faces (> 0 on unknown faces; walls carry no flux whatever stands there); `rhs` on centres, its
+  /// mean is removed. `p` on entry is the first guess, on return the solution with zero mean and filled ghosts. Stops
+  /// when the residual 2-norm is below max(relative |rhs|, absolute * sqrt(cells)).
+  PressureSolve solve(const FaceFields& coefficient, const Field<Centre>& rhs, Field<Centre>& p, double relative,
+                      double absolute);
 
  private:
   struct Levels;
   std::unique_ptr<Levels> levels_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

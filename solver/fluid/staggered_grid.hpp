@@ -17,10 +17,10 @@ namespace bedload {
 struct StaggeredGrid {
   static constexpr int ghosts = 2;
 
-  std::array<int, 3> cells{};                      // nx, ny, nz
-  Vec3 h;                                          // cell edges [m]
-  std::array<Side, 3> sides{};                     // in x, y, z
-  Top top = Top::lid;                              // read only when sides[2] is wall
+  std::array<int, 3> cells{};    // nx, ny, nz
+  Vec3 h;                        // cell edges [m]
+  std::array<Side, 3> sides{};   // in x, y, z
+  Top top = Top::lid;            // read only when sides[2] is wall
 
   std::ptrdiff_t stride(int c) const {
     const std::ptrdiff_t sy = cells[2] + 2 * ghosts;
@@ -56,8 +56,8 @@ struct Field {
   const double* data() const { return values.data(); }
   bool operator==(const Field&) const = default;
 
-  std::array<int, 3> cells{};     // interior shape; what a checkpoint holds
-  std::vector<double> values;     // padded
+  std::array<int, 3> cells{};   // interior shape; what a checkpoint holds
+  std::vector<double> values;   // padded
 };
 
 /// One field per face direction: velocity [m/s], flux, face coefficient.
@@ -73,4 +73,4 @@ struct FaceFields {
   Field<FaceZ> z;
 };
 
-}  // namespace bedload
+}   // namespace bedload

@@ -14,9 +14,10 @@ void finish(int planes, int lag, Stage& stage) {
 
 }   // namespace wavefront_detail
 
-/// Runs each stage on every plane, a later stage on a plane as soon as the stage before it has passed the planes on both
-/// sides, so that planes are still in cache; the result is that of one full sweep after the other. `refresh` renews the ghost
-/// planes; it runs after each stage has seen all planes, so a stage reads its own old values across a periodic seam.
+/// Runs each stage on every plane, a later stage on a plane as soon as the stage before it has passed the planes on
+/// both sides, so that planes are still in cache; the result is that of one full sweep after the other. `refresh`
+/// renews the ghost planes; it runs after each stage has seen all planes, so a stage reads its own old values across a
+/// periodic seam.
 template <class Refresh, class First, class Second>
 void wavefront(int planes, Refresh&& refresh, First&& first, Second&& second) {
   for (int i = 0; i < planes; ++i) {

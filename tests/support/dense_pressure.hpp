@@ -7,8 +7,8 @@
 
 namespace bedload::test {
 
-/// Solution of div(c grad p) = rhs - mean(rhs) with zero mean, in the order of cells (x slowest). Faces on walls carry no flux;
-/// `coefficient` is read on unknown faces only.
+/// Solution of div(c grad p) = rhs - mean(rhs) with zero mean, in the order of cells (x slowest). Faces on walls carry
+/// no flux; `coefficient` is read on unknown faces only.
 inline Eigen::VectorXd dense_pressure(const StaggeredGrid& g, const FaceFields& coefficient, const Field<Centre>& rhs) {
   const int nx = g.cells[0], ny = g.cells[1], nz = g.cells[2], n = nx * ny * nz;
   const auto number = [&](int i, int j, int k) { return ((i + nx) % nx * ny + (j + ny) % ny) * nz + (k + nz) % nz; };

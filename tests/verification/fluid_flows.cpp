@@ -45,7 +45,8 @@ double speed_at(const Scene& scene, const State& state, double z) {
   return interpolated(z, scene.grid.h.z, 0.5, [&](int k) { return state.fluid.velocity.x[scene.grid.index(0, 0, k)]; });
 }
 
-/// u/U at z/H = .25, .5, .75, .9 of a fluid at rest whose lid starts to move at t = 0 (series solution of du/dt = nu d2u/dz2).
+/// u/U at z/H = .25, .5, .75, .9 of a fluid at rest whose lid starts to move at t = 0 (series solution of du/dt = nu
+/// d2u/dz2).
 TEST(FluidFlows, CouetteStartUpFollowsTheSeriesSolution) {
   const double z[] = {0.25, 0.5, 0.75, 0.9};
   const struct {
@@ -119,7 +120,8 @@ TEST(FluidFlows, AFreeSlipTopHalvesThePoiseuilleFlow) {
   EXPECT_NEAR(coupler.books().on_bottom.x, coupler.books().driving.x, 1e-9 * coupler.books().driving.x);
 }
 
-/// Mean |error| of the horizontal velocity of a Taylor-Green vortex in the plane of components a and b, after a quarter of its decay time.
+/// Mean |error| of the horizontal velocity of a Taylor-Green vortex in the plane of components a and b, after a quarter
+/// of its decay time.
 double taylor_green_error(int cells, int a, int b) {
   const double k = 2 * M_PI, nu = 0.02;
   std::array<int, 3> n{1, 1, 1};

@@ -17,7 +17,8 @@ struct Step {
   double dt;
 };
 
-/// F without divergence: the discrete curl of random numbers on edges, zero on walls, plus a uniform wind along periodic sides.
+/// F without divergence: the discrete curl of random numbers on edges, zero on walls, plus a uniform wind along
+/// periodic sides.
 FaceFields random_solenoidal(const StaggeredGrid& g, unsigned seed, double size, Vec3 wind) {
   FaceFields edges =
       random_faces(g, seed, -size, size);   // component c: on the edges along c, at the lower corner of the others
@@ -162,7 +163,8 @@ TEST(Transport, LeavesFluidAtRestAtRest) {
     for_each_unknown_face(channel_grid, c, [&](std::size_t n) { EXPECT_EQ(u.component(c)[n], 0); });
 }
 
-/// Carries the component `c` of u along `t` with flux 1 m/s, once around a periodic line of n cells; returns u on that line.
+/// Carries the component `c` of u along `t` with flux 1 m/s, once around a periodic line of n cells; returns u on that
+/// line.
 std::vector<double> once_around(int c, int t, int n, double courant, double (*profile)(double)) {
   StaggeredGrid g{{1, 1, 1}, {1, 1, 1}, {periodic, periodic, periodic}};
   g.cells[t] = n;

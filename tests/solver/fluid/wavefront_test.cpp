@@ -7,7 +7,8 @@
 namespace bedload {
 namespace {
 
-/// Planes of a periodic line with ghost planes 0 and n + 1; a sweep of weight w mixes plane i with both neighbours in place.
+/// Planes of a periodic line with ghost planes 0 and n + 1; a sweep of weight w mixes plane i with both neighbours in
+/// place.
 struct Line {
   explicit Line(int n) : value(n + 2) {
     for (int i = 1; i <= n; ++i) value[i] = 1.0 / (3 * i + 1);
