@@ -6,15 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "studies/study_directory.hpp"
+
 namespace bedload {
 
 enum class Form { table, csv, json };   // how results are printed
 
 struct StudyOptions {
-  std::string study;                 // study file or result directory
-  std::optional<std::string> out;    // result directory instead of the one beside the file
+  std::string study;                // study file or result directory
+  std::optional<std::string> out;   // result directory instead of the one beside the file
   Form form = Form::table;
-  std::vector<std::string> cases;    // id prefixes, labels, globs
+  std::vector<std::string> cases;   // id prefixes, labels, globs
 };
 
 struct RunOptionsOfCommand {
@@ -34,6 +36,10 @@ int status_command(const StudyOptions&, bool watch);
 int curve_command(const StudyOptions&);
 int query_command(const StudyOptions&, const std::string& sql);
 int report_command(const StudyOptions&);
+
 int inspect_command(const std::string& checkpoint, bool digest, bool verify, Form);
 
-}  // namespace bedload
+/// report.html of a study, published; its path.
+std::filesystem::path write_report(const StudyPlace&);
+
+}   // namespace bedload

@@ -28,11 +28,12 @@ fs::path checkpoint_named(const fs::path& named) {
 Rows field_rows(const State& state) {
   Rows rows{{"field", "unit", "shape", "min", "max"}, {}};
   for (const auto& field : summarise(state))
-    rows.rows.push_back({field.name, field.unit, fmt::format("{}", fmt::join(field.shape, " x ")), real_or_null(field.min), real_or_null(field.max)});
+    rows.rows.push_back({field.name, field.unit, fmt::format("{}", fmt::join(field.shape, " x ")),
+                         real_or_null(field.min), real_or_null(field.max)});
   return rows;
 }
 
-}  // namespace
+}   // namespace
 
 int inspect_command(const std::string& named, bool digest, bool verify, Form form) {
   const auto file = checkpoint_named(named);
@@ -47,4 +48,4 @@ int inspect_command(const std::string& named, bool digest, bool verify, Form for
   return 0;
 }
 
-}  // namespace bedload
+}   // namespace bedload

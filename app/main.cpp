@@ -1,6 +1,6 @@
 // The command line: which commands there are, what they take, how they end. The only file that includes CLI11.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "app/commands.hpp"
 #include "base/build_info.hpp"
@@ -14,15 +14,17 @@ namespace {
 
 std::string version_text() {
   const auto b = build_info();
-  return fmt::format("bedload {} ({}, {}), physics_version {}\ncompiler {}\nflags {}\nlibraries {}", b.version, b.commit, b.build_type,
-                     physics_version, b.compiler, b.flags, b.libraries);
+  return fmt::format("bedload {} ({}, {}), physics_version {}\ncompiler {}\nflags {}\nlibraries {}", b.version,
+                     b.commit, b.build_type, physics_version, b.compiler, b.flags, b.libraries);
 }
 
 /// What the command line says, and the command that it names.
 struct CommandLine {
   CommandLine();
 
-  CLI::App app{"bedload: when does a sediment bed begin to move? Coupled CFD-DEM, from a study file to a threshold curve.", "bedload"};
+  CLI::App app{
+      "bedload: when does a sediment bed begin to move? Coupled CFD-DEM, from a study file to a threshold curve.",
+      "bedload"};
   int code = 0;
 
  private:
@@ -66,66 +68,78 @@ void CommandLine::forms(CLI::App* command, bool csv) {
 }
 
 void CommandLine::study_commands() {
-  auto* make = add("new", "write a commented study file to start from", "bedload new shields", [this] { return new_command(name_); });
+  auto* make = add("new", "write a commented study file to start from", "bedload new shields",
+                   [this] { return new_command(name_); });
   make->add_option("NAME", name_, "of the study; NAME.toml is written")->required();
 
-  auto* plan = add("plan", "show cases, models and why, steps, cost; run nothing", "bedload plan shields.toml", [this] { return plan_command(study_); });
+  auto* plan = add("plan", "show cases, models and why, steps, cost; run nothing", "bedload plan shields.toml",
+                   [this] { return plan_command(study_); });
   study_argument(plan);
   forms(plan);
 
-  auto* run = add("run", "start or resume; running it again is always safe", "bedload run shields.toml --cores 4", [this] { return run_command(run_); });
+  auto* run = add("run", "start or resume; running it again is always safe", "bedload run shields.toml --cores 4",
+                  [this] { return run_command(run_); });
   study_argument(run);
-  run->add_option("--cores", run_.cores, "workers side by side (default: the study file's)")->check(CLI::PositiveNumber);
+  run->add_option("--cores", run_.cores, "workers side by side (default: the study file's)")
+      ->check(CLI::PositiveNumber);
   run->add_option("--only", study_.cases, "these cases: id prefixes, labels, globs of labels");
   run->add_flag("--prepare", run_.prepare, "make the case directories and stop");
   run->add_flag("--rescan", run_.rescan, "rebuild the database from the case directories first");
   run->add_flag("--recompute", run_.recompute, "start anew what another physics_version computed");
   run->add_flag("--replace", run_.replace, "go on although every case so far leaves the study");
 
-  auto* stop = add("stop", "let workers write a checkpoint and stop", "bedload stop shields.toml 'd0.5mm-*'", [this] { return stop_command(study_); });
+  auto* stop = add("stop", "let workers write a checkpoint and stop", "bedload stop shields.toml 'd0.5mm-*'",
+                   [this] { return stop_command(study_); });
   study_argument(stop);
   stop->add_option("CASE", study_.cases, "cases (default: all)");
 
-  auto* retry = add("retry", "failed cases become pending again", "bedload retry shields.toml", [this] { return retry_command(study_); });
+  auto* retry = add("retry", "failed cases become pending again", "bedload retry shields.toml",
+                    [this] { return retry_command(study_); });
   study_argument(retry);
   retry->add_option("CASE", study_.cases, "cases (default: all that failed)");
 }
 
 void CommandLine::result_commands() {
-  auto* status = add("status", "where every case stands", "bedload status shields.toml --watch", [this] { return status_command(study_, watch_); });
+  auto* status = add("status", "where every case stands", "bedload status shields.toml --watch",
+                     [this] { return status_command(study_, watch_); });
   study_argument(status);
   forms(status);
   status->add_flag("--watch", watch_, "again every two seconds, until Ctrl-C");
 
-  auto* explain = add("explain", "why a case is (not) running, was (not) reused, failed; its models and why", "bedload explain shields.toml d0.5mm-rho2000-s1",
-                      [this] { return explain_command(study_); });
+  auto* explain = add("explain", "why a case is (not) running, was (not) reused, failed; its models and why",
+                      "bedload explain shields.toml d0.5mm-rho2000-s1", [this] { return explain_command(study_); });
   study_argument(explain);
   forms(explain, false);
   explain->add_option("CASE", study_.cases, "id prefix, label, or glob of labels")->required();
 
-  auto* curve = add("curve", "the threshold curve beside published ones", "bedload curve shields.toml --csv > curve.csv", [this] { return curve_command(study_); });
+  auto* curve = add("curve", "the threshold curve beside published ones",
+                    "bedload curve shields.toml --csv > curve.csv", [this] { return curve_command(study_); });
   study_argument(curve);
   forms(curve);
 
-  auto* query = add("query", "any question to the result database, read only", "bedload query shields.toml \"SELECT label, shields FROM threshold_curve\"",
+  auto* query = add("query", "any question to the result database, read only",
+                    "bedload query shields.toml \"SELECT label, shields FROM threshold_curve\"",
                     [this] { return query_command(study_, sql_); });
   study_argument(query);
   query->add_option("SQL", sql_, "one SELECT")->required();
   forms(query);
 
-  auto* report = add("report", "write report.html, one self-contained page", "bedload report shields.toml", [this] { return report_command(study_); });
+  auto* report = add("report", "write report.html, one self-contained page", "bedload report shields.toml",
+                     [this] { return report_command(study_); });
   study_argument(report);
 }
 
 void CommandLine::case_commands() {
-  auto* inspect = add("inspect", "what is in a checkpoint", "bedload inspect shields/cases/0123456789ab/ck-1200.h5 --digest",
-                      [this] { return inspect_command(checkpoint_, digest_, verify_, study_.form); });
+  auto* inspect =
+      add("inspect", "what is in a checkpoint", "bedload inspect shields/cases/0123456789ab/ck-1200.h5 --digest",
+          [this] { return inspect_command(checkpoint_, digest_, verify_, study_.form); });
   inspect->add_option("CHECKPOINT", checkpoint_, "checkpoint file, or case directory for its newest")->required();
   inspect->add_flag("--digest", digest_, "only the digest of the state");
   inspect->add_flag("--verify", verify_, "only check that the file is whole");
   forms(inspect);
 
-  auto* one = add("case", "run one case directory (what `run` starts; usable by hand)", "bedload case shields/by-label/d0.5mm-rho2000-s1 --until \"0.2 s\"",
+  auto* one = add("case", "run one case directory (what `run` starts; usable by hand)",
+                  "bedload case shields/by-label/d0.5mm-rho2000-s1 --until \"0.2 s\"",
                   [this] { return case_command(directory_, until_); });
   one->add_option("DIR", directory_, "case directory")->required();
   one->add_option("--until", until_, "stop at this model time of the ramp, with a checkpoint");
@@ -136,7 +150,8 @@ void CommandLine::later_commands() {
     auto* command = app.add_subcommand(name, "not in this version")->group("");
     command->allow_extras();
     command->callback([name] {
-      throw Error(ErrorKind::unavailable, fmt::format("`bedload {}` is not in this version", name), "`bedload --help` lists the commands");
+      throw Error(ErrorKind::unavailable, fmt::format("`bedload {}` is not in this version", name),
+                  "`bedload --help` lists the commands");
     });
   }
 }
@@ -165,9 +180,9 @@ int run(int argc, char** argv) {
   }
 }
 
-}  // namespace
+}   // namespace
 
-}  // namespace bedload
+}   // namespace bedload
 
 int main(int argc, char** argv) {
   try {

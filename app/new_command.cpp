@@ -9,7 +9,8 @@ namespace bedload {
 
 namespace {
 
-constexpr const char* study_template = R"(# A study of incipient sediment motion. Every list is an axis: the cases are the product of all axes.
+constexpr const char* study_template =
+    R"(# A study of incipient sediment motion. Every list is an axis: the cases are the product of all axes.
 # bedload plan {0}.toml    shows the cases, the models, the cost
 # bedload run {0}.toml     starts or resumes; running it again is always safe
 format = 1
@@ -68,7 +69,7 @@ cores      = "all"
 checkpoint = {{ every = "5 min", keep = 2 }}
 )";
 
-}  // namespace
+}   // namespace
 
 int new_command(const std::string& name) {
   const std::filesystem::path file = name.ends_with(".toml") ? name : name + ".toml";
@@ -78,4 +79,4 @@ int new_command(const std::string& name) {
   return 0;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -30,17 +30,30 @@ std::vector<CaseEntry> known_cases(const fs::path& results) {
 }
 
 Rows case_rows(const Plan& plan) {
-  Rows rows{{"case", "label", "plan", "grains", "cells", "E [Pa]", "DEM step [s]", "fluid step [s]", "td [s]", "Ga", "core-hours, at most"}, {}};
+  Rows rows{{"case", "label", "plan", "grains", "cells", "E [Pa]", "DEM step [s]", "fluid step [s]", "td [s]", "Ga",
+             "core-hours, at most"},
+            {}};
   for (const auto& c : plan.cases) {
     const auto& scene = c.one.scene;
     const auto n = numbers_of(scene);
     rows.rows.push_back({short_id(c.one.id), c.one.label, std::string(word(c.fate)) + (c.done ? ", done" : ""),
-                         static_cast<std::int64_t>(scene.bed.source.count), static_cast<std::int64_t>(scene.grid.cell_count()),
-                         scene.bed.grains.young_modulus, scene.bed.dem_step, scene.steps.fluid_interval, real_or_null(n.grain_time),
+                         static_cast<std::int64_t>(scene.bed.source.count),
+                         static_cast<std::int64_t>(scene.grid.cell_count()), scene.bed.grains.young_modulus,
+                         scene.bed.dem_step, scene.steps.fluid_interval, real_or_null(n.grain_time),
                          real_or_null(n.galileo), c.done ? 0.0 : predicted_cost(scene).core_seconds / 3600});
   }
   for (const auto& entry : plan.dropped)
-    rows.rows.push_back({short_id(entry.id), entry.label, std::string("dropped: not in the study file any more"), {}, {}, {}, {}, {}, {}, {}, 0.0});
+    rows.rows.push_back({short_id(entry.id),
+                         entry.label,
+                         std::string("dropped: not in the study file any more"),
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         0.0});
   return rows;
 }
 
@@ -53,7 +66,8 @@ void print_models(const Plan& plan) {
     groups[decisions].push_back(&c.one);
   }
   for (const auto& [decisions, cases] : groups) {
-    fmt::print("\nModels of {}{}:\n{}", cases.front()->label, cases.size() > 1 ? fmt::format(" and {} more", cases.size() - 1) : "",
+    fmt::print("\nModels of {}{}:\n{}", cases.front()->label,
+               cases.size() > 1 ? fmt::format(" and {} more", cases.size() - 1) : "",
                printed(scene_models(cases.front()->scene), Form::table));
     fmt::print("\n{}", printed(scene_numbers(cases.front()->scene), Form::table));
   }
@@ -77,10 +91,14 @@ void print_summary(const Study& study, const Plan& plan, const fs::path& results
     bytes += predicted_cost(c.one.scene).bytes;
   }
   const auto done = std::ranges::count(plan.cases, true, &PlannedCase::done);
-  fmt::print("{}: {} case{} ({} new, {} kept, {} extended; {} done), {} dropped, {} beds; results in {}\n", study.name, plan.cases.size(), plan.cases.size() == 1 ? "" : "s",
-             count(Fate::fresh), count(Fate::kept), count(Fate::extended), done, plan.dropped.size(), plan.beds.size(), results.string());
-  fmt::print("at most {:.3g} core-hours (a ramp ends two steps after onset), {} on {} cores; {:.1f} MB on disk\n\n", core_seconds / 3600,
-             duration_text(core_seconds / std::max<double>(1, std::min<double>(cores, static_cast<double>(plan.cases.size())))), cores, bytes / 1e6);
+  fmt::print("{}: {} case{} ({} new, {} kept, {} extended; {} done), {} dropped, {} beds; results in {}\n", study.name,
+             plan.cases.size(), plan.cases.size() == 1 ? "" : "s", count(Fate::fresh), count(Fate::kept),
+             count(Fate::extended), done, plan.dropped.size(), plan.beds.size(), results.string());
+  fmt::print("at most {:.3g} core-hours (a ramp ends two steps after onset), {} on {} cores; {:.1f} MB on disk\n\n",
+             core_seconds / 3600,
+             duration_text(core_seconds /
+                           std::max<double>(1, std::min<double>(cores, static_cast<double>(plan.cases.size())))),
+             cores, bytes / 1e6);
 }
 
 /// The case in the study file as it stands, or one that left it.
@@ -100,12 +118,13 @@ void explain_one(const CaseEntry& entry, const std::vector<Case>& cases, const f
 
 void explain_as_json(const CaseEntry& entry, const std::vector<Case>& cases, const fs::path& results) {
   const auto one = inputs_of(entry, cases, results);
-  const nlohmann::ordered_json json = {{"case", entry.id},
-                                       {"label", entry.label},
-                                       {"story", story_of(entry, results / entry.directory)},
-                                       {"models", nlohmann::ordered_json::parse(printed(scene_models(one.scene), Form::json))},
-                                       {"numbers", nlohmann::ordered_json::parse(printed(scene_numbers(one.scene), Form::json))},
-                                       {"warnings", warnings_of(one.scene)}};
+  const nlohmann::ordered_json json = {
+      {"case", entry.id},
+      {"label", entry.label},
+      {"story", story_of(entry, results / entry.directory)},
+      {"models", nlohmann::ordered_json::parse(printed(scene_models(one.scene), Form::json))},
+      {"numbers", nlohmann::ordered_json::parse(printed(scene_numbers(one.scene), Form::json))},
+      {"warnings", warnings_of(one.scene)}};
   fmt::print("{}\n", json.dump(2));
 }
 
@@ -120,7 +139,7 @@ std::vector<CaseEntry> all_entries(const std::vector<Case>& cases, const std::ve
   return entries;
 }
 
-}  // namespace
+}   // namespace
 
 int plan_command(const StudyOptions& options) {
   const auto place = find_study(options.study, options.out);
@@ -130,7 +149,8 @@ int plan_command(const StudyOptions& options) {
     fmt::print("{}", printed(case_rows(plan), options.form));
     return 0;
   }
-  const int cores = study.run.cores > 0 ? study.run.cores : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int cores =
+      study.run.cores > 0 ? study.run.cores : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   print_summary(study, plan, place.directory, cores);
   fmt::print("{}", printed(case_rows(plan), Form::table));
   print_models(plan);
@@ -147,4 +167,4 @@ int explain_command(const StudyOptions& options) {
   return 0;
 }
 
-}  // namespace bedload
+}   // namespace bedload

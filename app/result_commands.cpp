@@ -40,17 +40,20 @@ std::vector<BedView> views(const std::vector<CaseEntry>& cases, const std::files
     const auto directory = results / entry.directory;
     if (!std::filesystem::exists(directory / "case.toml")) continue;
     auto state = CheckpointSeries(directory, 2, [](const std::string& line) { log_warning(line); }).newest();
-    if (state && state->grains.size() > 0) made.push_back(view_of(entry, read_case_directory(directory), std::move(*state)));
+    if (state && state->grains.size() > 0)
+      made.push_back(view_of(entry, read_case_directory(directory), std::move(*state)));
   }
   return made;
 }
 
-}  // namespace
+}   // namespace
 
 int curve_command(const StudyOptions& options) {
   const auto place = find_study(options.study, options.out);
   const auto curve = threshold_curve(open_results(place));
-  fmt::print("{}", options.form == Form::csv ? curve_as_csv(curve) : options.form == Form::json ? curve_as_json(curve) : curve_as_table(curve));
+  fmt::print("{}", options.form == Form::csv    ? curve_as_csv(curve)
+                   : options.form == Form::json ? curve_as_json(curve)
+                                                : curve_as_table(curve));
   return 0;
 }
 
@@ -60,8 +63,7 @@ int query_command(const StudyOptions& options, const std::string& sql) {
   return 0;
 }
 
-int report_command(const StudyOptions& options) {
-  const auto place = find_study(options.study, options.out);
+std::filesystem::path write_report(const StudyPlace& place) {
   const auto database = open_results(place);
   const auto file = place.directory / "report.html";
   const ReportRequest request{.study = place.directory.filename().string(),
@@ -69,8 +71,12 @@ int report_command(const StudyOptions& options) {
                               .written = utc_now(),
                               .beds = views(read_cases(database), place.directory)};
   publish(file, report_html(database, request));
-  fmt::print("{}\n", file.string());
+  return file;
+}
+
+int report_command(const StudyOptions& options) {
+  fmt::print("{}\n", write_report(find_study(options.study, options.out)).string());
   return 0;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -40,7 +40,7 @@ std::vector<CaseEntry> named_cases(const StudyOptions& options, const StudyPlace
   return cases;
 }
 
-}  // namespace
+}   // namespace
 
 int run_command(const RunOptionsOfCommand& options) {
   const auto place = find_study(options.study.study, options.study.out);
@@ -58,6 +58,7 @@ int run_command(const RunOptionsOfCommand& options) {
   if (options.prepare) return code;
   log_note(fmt::format("wall time {}", duration_text(seconds() - began)));
   if (code == 75) log_note(fmt::format("stopped with work left; go on with: bedload run {}", place.name));
+  if (code == 0 || code == 1) log_note(fmt::format("report in {}", write_report(place).string()));
   if (code == 0) log_note(fmt::format("bedload curve {} shows the thresholds", place.name));
   if (code == 1) log_note(fmt::format("bedload explain {} CASE says why a case failed", place.name));
   return code;
@@ -104,4 +105,4 @@ int retry_command(const StudyOptions& options) {
   return 0;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -28,7 +28,7 @@ struct Standing {
   const CaseEntry* entry;
   std::optional<LockHolder> worker;
   std::optional<Heartbeat> beat;
-  double fraction = 0;       // of the planned model time
+  double fraction = 0;   // of the planned model time
   double core_hours_left = 0;
 };
 
@@ -43,7 +43,8 @@ Standing standing_of(const CaseEntry& entry, const fs::path& results) {
   s.worker = FileLock::holder(directory / "lock");
   s.beat = read_heartbeat(directory);
   if (s.beat && s.beat->planned_time > 0) s.fraction = std::min(1.0, s.beat->time / s.beat->planned_time);
-  if (!entry.is_bed) s.core_hours_left = predicted_cost(read_case_directory(directory).scene).core_seconds * (1 - s.fraction) / 3600;
+  if (!entry.is_bed)
+    s.core_hours_left = predicted_cost(read_case_directory(directory).scene).core_seconds * (1 - s.fraction) / 3600;
   return s;
 }
 
@@ -54,13 +55,17 @@ std::string state_in_words(const Standing& s) {
 }
 
 Rows case_rows(const std::vector<Standing>& all) {
-  Rows rows{{"case", "state", "hold", "theta", "done [%]", "steps/s", "worker", "core-hours left, at most", "message"}, {}};
+  Rows rows{{"case", "state", "hold", "theta", "done [%]", "steps/s", "worker", "core-hours left, at most", "message"},
+            {}};
   for (const auto& s : all) {
     if (s.entry->is_bed && s.entry->state == CaseState::done) continue;
     const bool ramp = s.beat && s.beat->phase == "ramp" && s.entry->state != CaseState::done;
-    rows.rows.push_back({s.entry->label, state_in_words(s), ramp ? Value(fmt::format("{}/{}", s.beat->hold, s.beat->holds)) : Value(),
-                         ramp ? Value(s.beat->shields) : Value(), 100 * s.fraction, s.worker && s.beat ? Value(s.beat->steps_per_second) : Value(),
-                         s.worker ? Value(fmt::format("pid {} on {}", s.worker->pid, s.worker->host)) : Value(), s.core_hours_left, s.entry->message});
+    rows.rows.push_back({s.entry->label, state_in_words(s),
+                         ramp ? Value(fmt::format("{}/{}", s.beat->hold, s.beat->holds)) : Value(),
+                         ramp ? Value(s.beat->shields) : Value(), 100 * s.fraction,
+                         s.worker && s.beat ? Value(s.beat->steps_per_second) : Value(),
+                         s.worker ? Value(fmt::format("pid {} on {}", s.worker->pid, s.worker->host)) : Value(),
+                         s.core_hours_left, s.entry->message});
   }
   return rows;
 }
@@ -94,13 +99,15 @@ void show(const StudyOptions& options, const StudyPlace& place) {
     const auto* hours = std::get_if<double>(&spent);
     const auto scheduler = FileLock::holder(place.directory / "lock");
     fmt::print("{}\n", summary_of(all, place, hours ? *hours : 0));
-    fmt::print("{}\n\n", scheduler ? fmt::format("bedload run is at work: pid {} on {}", scheduler->pid, scheduler->host) : "no `bedload run` is at work");
+    fmt::print("{}\n\n", scheduler
+                             ? fmt::format("bedload run is at work: pid {} on {}", scheduler->pid, scheduler->host)
+                             : "no `bedload run` is at work");
   }
   fmt::print("{}", printed(case_rows(all), options.form));
   std::fflush(stdout);
 }
 
-}  // namespace
+}   // namespace
 
 int status_command(const StudyOptions& options, bool watch) {
   const auto place = find_study(options.study, options.out);
@@ -115,4 +122,4 @@ int status_command(const StudyOptions& options, bool watch) {
   return 0;
 }
 
-}  // namespace bedload
+}   // namespace bedload

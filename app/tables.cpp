@@ -75,10 +75,10 @@ std::string as_table(const Rows& rows) {
   return text;
 }
 
-}  // namespace
+}   // namespace
 
 std::string printed(const Rows& rows, Form form) {
   return form == Form::csv ? as_csv(rows) : form == Form::json ? as_json(rows) : as_table(rows);
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -9,4 +9,4 @@ namespace bedload {
 /// Aligned columns; CSV (RFC 4180); or a JSON array of objects. Numbers in CSV and JSON read back to the same bits.
 std::string printed(const Rows&, Form);
 
-}  // namespace bedload
+}   // namespace bedload

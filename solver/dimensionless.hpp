@@ -9,12 +9,14 @@ namespace bedload {
 inline double reduced_gravity(double density_ratio, double gravity) { return (density_ratio - 1) * gravity; }
 
 /// Shields number theta = tau_b/((rho_p - rho_f) g d) of a bed shear stress [Pa].
-inline double shields_number(double stress, double fluid_density, double density_ratio, double gravity, double diameter) {
+inline double shields_number(double stress, double fluid_density, double density_ratio, double gravity,
+                             double diameter) {
   return stress / (fluid_density * reduced_gravity(density_ratio, gravity) * diameter);
 }
 
 /// Bed shear stress of a Shields number [Pa].
-inline double stress_of_shields(double shields, double fluid_density, double density_ratio, double gravity, double diameter) {
+inline double stress_of_shields(double shields, double fluid_density, double density_ratio, double gravity,
+                                double diameter) {
   return shields * fluid_density * reduced_gravity(density_ratio, gravity) * diameter;
 }
 
@@ -37,4 +39,4 @@ inline double impact_stokes_number(double density_ratio, double diameter, double
   return (density_ratio + 0.5) * diameter * speed / (9 * viscosity);
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -18,4 +18,4 @@ double largest_diameter(const BedScene&);
 /// Rayleigh time of the smallest grain [s]; the DEM step is judged by it.
 double smallest_rayleigh_time(const BedScene&);
 
-}  // namespace bedload
+}   // namespace bedload

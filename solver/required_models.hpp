@@ -34,11 +34,11 @@ inline constexpr double quoted_shields = 0.2;
 SceneNumbers numbers_of(const Scene&);
 
 struct ModelChoice {
-  std::string term;     // "drag", "viscous_torque", ...
-  bool on = false;      // in this run
-  bool wanted = false;  // by the rules
-  double ratio = 0;     // the number that decided
-  std::string reason;   // with that number, and what leaving the term out costs
+  std::string term;      // "drag", "viscous_torque", ...
+  bool on = false;       // in this run
+  bool wanted = false;   // by the rules
+  double ratio = 0;      // the number that decided
+  std::string reason;    // with that number, and what leaving the term out costs
 };
 
 /// The decision for every term the rules know, also for those this version does not have.
@@ -47,4 +47,4 @@ std::vector<ModelChoice> required_models(const Scene&);
 /// What a reader of the results must be told: turbulence assumed away, terms wanted but off. Empty if nothing.
 std::vector<std::string> warnings_of(const Scene&);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -21,12 +21,19 @@ bool packed(const BedScene& bed) {
 
 void check_grains(const BedScene& bed, Found& found) {
   const auto& g = bed.grains;
-  if (g.spread > 0.3) found.push_back({"grains.spread", fmt::format("{} lets the smallest grain vanish", g.spread), "at most 0.3"});
-  if (g.restitution > 1) found.push_back({"grains.restitution", fmt::format("{} makes energy in every collision", g.restitution), "above 0, at most 1"});
-  if (g.poisson > 0.49) found.push_back({"grains.poisson", fmt::format("{} is not Poisson's ratio of a solid", g.poisson), "0 to 0.49; glass and quartz: 0.2-0.3"});
+  if (g.spread > 0.3)
+    found.push_back({"grains.spread", fmt::format("{} lets the smallest grain vanish", g.spread), "at most 0.3"});
+  if (g.restitution > 1)
+    found.push_back(
+        {"grains.restitution", fmt::format("{} makes energy in every collision", g.restitution), "above 0, at most 1"});
+  if (g.poisson > 0.49)
+    found.push_back({"grains.poisson", fmt::format("{} is not Poisson's ratio of a solid", g.poisson),
+                     "0 to 0.49; glass and quartz: 0.2-0.3"});
   if (needs_settling(bed) && g.density <= bed.fluid.density)
-    found.push_back({"grains.density", fmt::format("grains of {} kg/m3 do not settle in a fluid of {} kg/m3", g.density, bed.fluid.density),
-                     "heavier grains, or bed.source = \"file\""});
+    found.push_back(
+        {"grains.density",
+         fmt::format("grains of {} kg/m3 do not settle in a fluid of {} kg/m3", g.density, bed.fluid.density),
+         "heavier grains, or bed.source = \"file\""});
 }
 
 void check_fit(const BedScene& bed, Found& found) {
@@ -34,17 +41,25 @@ void check_fit(const BedScene& bed, Found& found) {
   const char* edges[] = {"box.length", "box.width", "box.height"};
   for (int c = 0; c < 3; ++c) {
     if (bed.source.kind == BedSource::Kind::none || largest <= bed.length[c]) continue;
-    found.push_back({edges[c], fmt::format("grains of {:.4g} m do not fit a box of {:.4g} m", largest, bed.length[c]), "a larger box, or smaller grains"});
+    found.push_back({edges[c], fmt::format("grains of {:.4g} m do not fit a box of {:.4g} m", largest, bed.length[c]),
+                     "a larger box, or smaller grains"});
   }
   if (packed(bed) && depth > bed.length.z) {
-    found.push_back({"bed.count", fmt::format("{} grains make a bed about {:.3g} m deep and do not fit the box, {:.3g} m high", bed.source.count, depth, bed.length.z),
-                     fmt::format("at most {} grains leave half of the box to the flow", std::floor(0.5 * bed.source.count * bed.length.z / depth))});
+    found.push_back({"bed.count",
+                     fmt::format("{} grains make a bed about {:.3g} m deep and do not fit the box, {:.3g} m high",
+                                 bed.source.count, depth, bed.length.z),
+                     fmt::format("at most {} grains leave half of the box to the flow",
+                                 std::floor(0.5 * bed.source.count * bed.length.z / depth))});
   }
   const bool poured = bed.source.kind == BedSource::Kind::poured;
   if (poured && bed.sides[2] == Side::periodic)
-    found.push_back({"box.z", "poured grains settle on a bottom, and a periodic z has none", "box.z = \"wall\", or bed.source = \"lattice\""});
-  if (poured && norm2(bed.gravity) == 0) found.push_back({"box.gravity", "poured grains do not settle without gravity", "bed.source = \"lattice\", \"file\" or \"none\""});
-  if (bed.gravity.z > 0 || std::abs(bed.gravity.x) > std::abs(bed.gravity.z)) found.push_back({"box.slope", "the box may be tilted by at most 45 degrees", "for example \"2 deg\""});
+    found.push_back({"box.z", "poured grains settle on a bottom, and a periodic z has none",
+                     "box.z = \"wall\", or bed.source = \"lattice\""});
+  if (poured && norm2(bed.gravity) == 0)
+    found.push_back({"box.gravity", "poured grains do not settle without gravity",
+                     "bed.source = \"lattice\", \"file\" or \"none\""});
+  if (bed.gravity.z > 0 || std::abs(bed.gravity.x) > std::abs(bed.gravity.z))
+    found.push_back({"box.slope", "the box may be tilted by at most 45 degrees", "for example \"2 deg\""});
 }
 
 void check_grid(const Scene& scene, Found& found) {
@@ -52,7 +67,9 @@ void check_grid(const Scene& scene, Found& found) {
   const char* cells[] = {"box.cell.xy", "box.cell.xy", "box.cell.z"};
   for (int c = 0; c < 3; ++c) {
     if (grid.cells[c] >= 3) continue;
-    found.push_back({cells[c], fmt::format("the box is {} cell{} across in {}; the kernel between grains and grid spans three", grid.cells[c], grid.cells[c] == 1 ? "" : "s", "xyz"[c]),
+    found.push_back({cells[c],
+                     fmt::format("the box is {} cell{} across in {}; the kernel between grains and grid spans three",
+                                 grid.cells[c], grid.cells[c] == 1 ? "" : "s", "xyz"[c]),
                      fmt::format("a cell of at most {:.4g} m, or a larger box", scene.bed.length[c] / 3)});
   }
 }
@@ -62,35 +79,48 @@ void check_drive(const Scene& scene, Found& found) {
   const auto& bed = scene.bed;
   const bool walls = bed.sides[2] == Side::wall;
   if (scene.drive.kind == Kind::lid && !(walls && bed.top == Top::lid))
-    found.push_back({"drive.kind", "a lid drives the flow only where the box has one", "box.z = \"wall\" and box.top = \"lid\""});
+    found.push_back(
+        {"drive.kind", "a lid drives the flow only where the box has one", "box.z = \"wall\" and box.top = \"lid\""});
   if (scene.drive.kind == Kind::pressure && bed.sides[0] == Side::wall)
     found.push_back({"drive.kind", "a pressure gradient moves nothing between walls in x", "box.x = \"periodic\""});
   if (scene.drive.kind == Kind::none || scene.drive.quantity != FlowRamp::Quantity::shields) return;
-  if (!walls) found.push_back({"drive.shields.from", "a Shields number needs a bottom that carries the stress, and a periodic z has none", "drive by gradient"});
+  if (!walls)
+    found.push_back({"drive.shields.from",
+                     "a Shields number needs a bottom that carries the stress, and a periodic z has none",
+                     "drive by gradient"});
   if (bed.grains.density <= bed.fluid.density || norm2(bed.gravity) == 0)
-    found.push_back({"drive.shields.from", "grains without submerged weight have no Shields number", "drive by speed or gradient"});
+    found.push_back(
+        {"drive.shields.from", "grains without submerged weight have no Shields number", "drive by speed or gradient"});
 }
 
 void check_models(const Scene& scene, Found& found) {
   if (scene.terms.pressure_gradient != scene.terms.viscous_stress) {
-    found.push_back({"models.terms", "pressure_gradient and viscous_stress are two halves of one model of the void fraction: both or neither",
-                     "all four terms (Model A), or [\"drag\", \"buoyancy\"] (Model B)"});
+    found.push_back(
+        {"models.terms",
+         "pressure_gradient and viscous_stress are two halves of one model of the void fraction: both or neither",
+         "all four terms (Model A), or [\"drag\", \"buoyancy\"] (Model B)"});
   }
   for (const auto id : scene.record.tracks) {
     if (!packed(scene.bed) || id < scene.bed.source.count) continue;
-    found.push_back({"record.tracks", fmt::format("there is no grain {}: ids run from 0 to {}", id, scene.bed.source.count - 1), "leave it out"});
+    found.push_back({"record.tracks",
+                     fmt::format("there is no grain {}: ids run from 0 to {}", id, scene.bed.source.count - 1),
+                     "leave it out"});
   }
 }
 
 void check_steps(const Scene& scene, Found& found) {
   const double rayleigh = smallest_rayleigh_time(scene.bed);
   if (packed(scene.bed) && scene.bed.dem_step > 0.3 * rayleigh)
-    found.push_back({"steps.dem", fmt::format("{:.4g} s is {:.2g} Rayleigh times of the smallest grain", scene.bed.dem_step, scene.bed.dem_step / rayleigh), "at most 0.3"});
+    found.push_back({"steps.dem",
+                     fmt::format("{:.4g} s is {:.2g} Rayleigh times of the smallest grain", scene.bed.dem_step,
+                                 scene.bed.dem_step / rayleigh),
+                     "at most 0.3"});
   if (!(scene.bed.dem_step > 0)) found.push_back({"steps.dem", "the DEM step is not positive", ""});
-  if (scene.steps.fluid_interval < scene.bed.dem_step) found.push_back({"steps.fluid", "the fluid step is shorter than the DEM step", ""});
+  if (scene.steps.fluid_interval < scene.bed.dem_step)
+    found.push_back({"steps.fluid", "the fluid step is shorter than the DEM step", ""});
 }
 
-}  // namespace
+}   // namespace
 
 std::vector<SceneProblem> problems_of(const Scene& scene) {
   Found found;
@@ -105,8 +135,9 @@ std::vector<SceneProblem> problems_of(const Scene& scene) {
 
 void validate(const Scene& scene) {
   std::string message;
-  for (const auto& problem : problems_of(scene)) message += fmt::format("{}{}: {}", message.empty() ? "" : "\n", problem.parameter, problem.message);
+  for (const auto& problem : problems_of(scene))
+    message += fmt::format("{}{}: {}", message.empty() ? "" : "\n", problem.parameter, problem.message);
   if (!message.empty()) throw Error(ErrorKind::study_invalid, message);
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -31,24 +31,24 @@ struct Onset {
 };
 
 struct Steps {
-  double fluid_interval = 0;     // longest fluid step asked for [s]: 10 DEM steps, or the study file's
+  double fluid_interval = 0;   // longest fluid step asked for [s]: 10 DEM steps, or the study file's
 };
 
 struct RecordPlan {
-  double every = 0;                     // [s]
-  std::vector<std::uint64_t> tracks;    // grain ids whose trajectories are kept
+  double every = 0;                    // [s]
+  std::vector<std::uint64_t> tracks;   // grain ids whose trajectories are kept
 };
 
 struct Scene {
-  BedScene bed;                  // fluid, grains, walls, gravity, DEM step
-  StaggeredGrid grid;            // cells of the box; same length, sides and top as bed
+  BedScene bed;         // fluid, grains, walls, gravity, DEM step
+  StaggeredGrid grid;   // cells of the box; same length, sides and top as bed
   FlowRamp drive;
   Onset onset;
   DragLawName drag = DragLawName::di_felice;
   Terms terms;
   Steps steps;
   RecordPlan record;
-  bool bed_only = false;         // finished once the bed has settled (a bed directory)
+  bool bed_only = false;   // finished once the bed has settled (a bed directory)
 };
 
 /// Why a scene cannot run: the parameter by its name in a study file, what is wrong with it, the likely fix.
@@ -60,4 +60,4 @@ std::vector<SceneProblem> problems_of(const Scene&);
 /// Refuses a scene that cannot run (ErrorKind::study_invalid), all problems in one message, one per line.
 void validate(const Scene&);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -64,7 +64,7 @@ std::string without_seed(const std::string& label, std::uint64_t seed) {
   return label.ends_with("-" + ending) ? label.substr(0, label.size() - ending.size() - 1) : label;
 }
 
-}  // namespace
+}   // namespace
 
 CaseEntry case_entry(const Case& one) { return entry(one.inputs, one.label); }
 CaseEntry bed_entry(const CaseInputs& bed) { return entry(bed, "bed-" + short_id(case_id(bed))); }
@@ -72,7 +72,8 @@ CaseEntry entry_of(const CaseDirectory& directory) { return entry(directory.inpu
 
 CaseIdentity identity_of(const CaseDirectory& directory) {
   const auto seed = directory.scene.bed.source.seed;
-  return {case_id(directory.inputs), directory.label, parameter_set_id(directory.inputs), without_seed(directory.label, seed), seed};
+  return {case_id(directory.inputs), directory.label, parameter_set_id(directory.inputs),
+          without_seed(directory.label, seed), seed};
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -15,4 +15,4 @@ CaseEntry entry_of(const CaseDirectory&);
 
 CaseIdentity identity_of(const CaseDirectory&);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -20,9 +20,10 @@ struct CaseDirectory {
 };
 
 /// Makes or updates case.toml and inputs/ of a case. Files that hold the same bytes already are left alone.
-void write_case_directory(const std::filesystem::path& directory, const CaseInputs&, const std::string& label, const RunOptions&);
+void write_case_directory(const std::filesystem::path& directory, const CaseInputs&, const std::string& label,
+                          const RunOptions&);
 
 /// Reads case.toml and what it names, and validates the scene. Errors: not_found, study_invalid.
 CaseDirectory read_case_directory(const std::filesystem::path& directory);
 
-}  // namespace bedload
+}   // namespace bedload

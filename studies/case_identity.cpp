@@ -43,7 +43,7 @@ std::string joined(const Lines& lines) {
 
 std::string digest_of(const std::string& text) { return Digest().add(bytes_of(text)).hex(); }
 
-}  // namespace
+}   // namespace
 
 std::string canonical_inputs(const CaseInputs& inputs) {
   auto lines = lines_of(inputs);
@@ -71,4 +71,4 @@ std::string bed_id(const CaseInputs& inputs) {
 
 std::string short_id(const std::string& id) { return id.substr(0, 12); }
 
-}  // namespace bedload
+}   // namespace bedload

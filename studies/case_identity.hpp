@@ -24,4 +24,4 @@ std::string canonical_inputs(const CaseInputs&);
 /// The directory name of an id: its first 12 digits.
 std::string short_id(const std::string& id);
 
-}  // namespace bedload
+}   // namespace bedload

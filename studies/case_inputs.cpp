@@ -24,7 +24,9 @@ namespace {
 
 /// Rounded to so many significant digits. What comes out of powers and roots is rounded before it becomes an input, so
 /// that the last bit of a mathematical library renames no case.
-double significant(double value, int digits) { return std::strtod(fmt::format("{:.{}e}", value, digits - 1).c_str(), nullptr); }
+double significant(double value, int digits) {
+  return std::strtod(fmt::format("{:.{}e}", value, digits - 1).c_str(), nullptr);
+}
 constexpr int exact_digits = 12;   // of products such as 20 d: hides 0.0077999999999999996
 constexpr int time_digits = 6;     // of grain times
 constexpr int auto_digits = 4;     // of a step that bedload chose
@@ -95,7 +97,8 @@ void Resolver::refuse(std::string_view key, const std::string& why) {
 std::optional<Setting> Resolver::setting(std::string_view key, bool required) {
   if (const auto found = settings_.find(key); found != settings_.end()) return found->second;
   if (auto fallback = fallback_of(*find_key(key))) return fallback;
-  if (required) problems_.add({}, fmt::format("{} is missing", key), "docs/study_files.md shows every key with an example");
+  if (required)
+    problems_.add({}, fmt::format("{} is missing", key), "docs/study_files.md shows every key with an example");
   return std::nullopt;
 }
 
@@ -107,8 +110,9 @@ bool Resolver::is_auto(std::string_view key) {
 
 void Resolver::quantity(std::string_view key, const Quantity& value) {
   if (value.grain_times != 0 && !scales_.time) {
-    return problem(key, fmt::format("\"{}\" counts grain times, which only grains that settle in the fluid have", value.text),
-                   "heavier grains, or a time in s");
+    return problem(
+        key, fmt::format("\"{}\" counts grain times, which only grains that settle in the fluid have", value.text),
+        "heavier grains, or a time in s");
   }
   try {
     const int digits = value.grain_times != 0 ? time_digits : exact_digits;
@@ -147,17 +151,21 @@ void Resolver::measure_in_grains() {
   if (inputs_.has("grains.diameter")) scales_.diameter = number("grains.diameter");
   for (const auto key : {"fluid.density", "fluid.viscosity", "grains.diameter", "grains.density", "box.gravity"})
     if (!inputs_.has(key)) return;
-  const double d = number("grains.diameter"), s = number("grains.density") / number("fluid.density"), g = number("box.gravity");
+  const double d = number("grains.diameter"), s = number("grains.density") / number("fluid.density"),
+               g = number("box.gravity");
   if (s <= 1 || g <= 0) return;
   const auto law = drag_law_named(word("models.drag"));
   scales_.time = grain_time(d, s, g, terminal_speed(law, number("fluid.viscosity"), s, d, g));
 }
 
 void Resolver::box() {
-  take_all({"box.length", "box.width", "box.height", "box.cell.xy", "box.cell.z", "box.x", "box.y", "box.z", "box.top"});
-  for (const auto& [cell, edge] : {std::pair{"box.cell.xy", "box.length"}, {"box.cell.xy", "box.width"}, {"box.cell.z", "box.height"}}) {
+  take_all(
+      {"box.length", "box.width", "box.height", "box.cell.xy", "box.cell.z", "box.x", "box.y", "box.z", "box.top"});
+  for (const auto& [cell, edge] :
+       {std::pair{"box.cell.xy", "box.length"}, {"box.cell.xy", "box.width"}, {"box.cell.z", "box.height"}}) {
     if (!inputs_.has(cell) || !inputs_.has(edge) || number(cell) <= number(edge)) continue;
-    problem(cell, fmt::format("a cell of {:.4g} m is larger than the box ({} is {:.4g} m)", number(cell), edge, number(edge)),
+    problem(cell,
+            fmt::format("a cell of {:.4g} m is larger than the box ({} is {:.4g} m)", number(cell), edge, number(edge)),
             "at least 3 cells must fit along every edge");
   }
 }
@@ -173,9 +181,11 @@ void Resolver::bed() {
   if (source != "file") refuse("bed.file", fmt::format("no file is read with bed.source = \"{}\"", source));
   if (packed) {
     take("bed.seed");
-    if (given("bed.count") && given("bed.depth")) return problem("bed.depth", "both count and depth say how much is poured", "keep one of them");
+    if (given("bed.count") && given("bed.depth"))
+      return problem("bed.depth", "both count and depth say how much is poured", "keep one of them");
     if (given("bed.depth")) return count_from_depth();
-    if (!given("bed.count")) return problems_.add({}, "bed.count is missing", "say how many grains: count = 1500, or depth = \"6 d\"");
+    if (!given("bed.count"))
+      return problems_.add({}, "bed.count is missing", "say how many grains: count = 1500, or depth = \"6 d\"");
     return take("bed.count");
   }
   if (source == "file") bed_table();
@@ -187,7 +197,8 @@ void Resolver::count_from_depth() {
   if (!inputs_.has("bed.depth") || !inputs_.has("grains.spread") || !complete()) return;
   const double spread = number("grains.spread");
   const double volume = sphere_volume(number("grains.diameter")) * (1 + 3 * spread * spread);   // mean of d^3
-  const double count = std::round(number("bed.depth") * number("box.length") * number("box.width") * loose_packing / volume);
+  const double count =
+      std::round(number("bed.depth") * number("box.length") * number("box.width") * loose_packing / volume);
   inputs_.values.erase("bed.depth");
   if (count < 1) return problem("bed.depth", "not one grain fits into so thin a bed");
   inputs_.values["bed.count"] = count;
@@ -223,14 +234,17 @@ void Resolver::drive() {
 }
 
 void Resolver::staircase(std::string_view table) {
-  const auto from = joined(table, "from"), ratio = joined(table, "ratio"), step = joined(table, "step"), steps = joined(table, "steps");
+  const auto from = joined(table, "from"), ratio = joined(table, "ratio"), step = joined(table, "step"),
+             steps = joined(table, "steps");
   take(from);
   if (!given(steps)) inputs_.values[steps] = 1.0;
   else take(steps);
-  if (given(ratio) && given(step)) return problem(step, "levels grow by a ratio or by a step, not both", "keep one of them");
+  if (given(ratio) && given(step))
+    return problem(step, "levels grow by a ratio or by a step, not both", "keep one of them");
   if (given(ratio)) take(ratio);
   if (given(step)) take(step);
-  if (inputs_.has(ratio) && number(ratio) <= 1) problem(ratio, "levels must rise: the ratio of one to the one before is above 1");
+  if (inputs_.has(ratio) && number(ratio) <= 1)
+    problem(ratio, "levels must rise: the ratio of one to the one before is above 1");
   if (number(steps) > 1 && !given(ratio) && !given(step))
     problem(steps, "how the levels grow is missing", "add ratio = 1.2, or step");
 }
@@ -251,7 +265,8 @@ void Resolver::models() {
   inputs_.values["models.fluid"] = "box";
   take("models.drag");
   if (is_auto("models.terms")) {
-    inputs_.values["models.terms"] = std::vector<std::string>{"buoyancy", "drag", "pressure_gradient", "viscous_stress"};
+    inputs_.values["models.terms"] =
+        std::vector<std::string>{"buoyancy", "drag", "pressure_gradient", "viscous_stress"};
   } else {
     take("models.terms");
   }
@@ -285,8 +300,11 @@ void Resolver::dem_step() {
   if (!inputs_.has("steps.dem")) return;
   const double dem = number("steps.dem");
   if (dem > 0.3 * rayleigh) {
-    problem("steps.dem", fmt::format("{:.4g} s is {:.2g} Rayleigh times of the smallest grain ({:.3g} s)", dem, dem / rayleigh, rayleigh),
-            fmt::format("at most 0.3 of them: \"{:.2g} s\", or \"auto\" for 0.2", std::floor(0.3 * rayleigh * 1e8) / 1e8));
+    problem(
+        "steps.dem",
+        fmt::format("{:.4g} s is {:.2g} Rayleigh times of the smallest grain ({:.3g} s)", dem, dem / rayleigh,
+                    rayleigh),
+        fmt::format("at most 0.3 of them: \"{:.2g} s\", or \"auto\" for 0.2", std::floor(0.3 * rayleigh * 1e8) / 1e8));
   }
   if (is_auto("steps.fluid")) {
     inputs_.values["steps.fluid"] = significant(10 * dem, exact_digits);
@@ -294,7 +312,8 @@ void Resolver::dem_step() {
     take("steps.fluid");
   }
   if (inputs_.has("steps.fluid") && number("steps.fluid") < dem)
-    problem("steps.fluid", fmt::format("{:.4g} s is shorter than the DEM step of {:.4g} s", number("steps.fluid"), dem), "make it a multiple, or \"auto\"");
+    problem("steps.fluid", fmt::format("{:.4g} s is shorter than the DEM step of {:.4g} s", number("steps.fluid"), dem),
+            "make it a multiple, or \"auto\"");
 }
 
 CaseInputs Resolver::run() {
@@ -304,7 +323,9 @@ CaseInputs Resolver::run() {
   take_all({"grains.spread", "grains.friction", "grains.restitution", "grains.poisson"});
   box();
   if (const auto rolling = setting("grains.rolling_friction"); std::get<double>(rolling->value) != 0)
-    problem("grains.rolling_friction", fmt::format("{} asks for rolling friction, which is not in this version", rolling->text), "rolling_friction = 0.0");
+    problem("grains.rolling_friction",
+            fmt::format("{} asks for rolling friction, which is not in this version", rolling->text),
+            "rolling_friction = 0.0");
   drive();
   onset();
   take("record.every");
@@ -318,10 +339,12 @@ CaseInputs Resolver::run() {
   return inputs_;
 }
 
-}  // namespace
+}   // namespace
 
 double CaseInputs::number(std::string_view key) const { return std::get<double>(values.find(key)->second); }
-const std::string& CaseInputs::word(std::string_view key) const { return std::get<std::string>(values.find(key)->second); }
+const std::string& CaseInputs::word(std::string_view key) const {
+  return std::get<std::string>(values.find(key)->second);
+}
 
 CaseInputs resolve(const Settings& settings, const std::filesystem::path& directory, Problems& problems) {
   return Resolver(settings, directory, problems).run();
@@ -344,7 +367,8 @@ CaseInputs bed_inputs(const CaseInputs& inputs) {
   bed.values["box.cell.xy"] = std::min({2 * d, inputs.number("box.length"), inputs.number("box.width")});
   bed.values["box.cell.z"] = std::min(0.5 * d, inputs.number("box.height"));
   bed.values["drive.kind"] = "none";
-  bed.values["drive.dwell"] = bed.values["record.every"] = bed.values["steps.fluid"] = significant(10 * dem, exact_digits);
+  bed.values["drive.dwell"] = bed.values["record.every"] = bed.values["steps.fluid"] =
+      significant(10 * dem, exact_digits);
   bed.values["record.tracks"] = std::vector<std::uint64_t>{};
   bed.values["onset.method"] = "none";
   bed.values["onset.criterion"] = "flux";
@@ -355,4 +379,4 @@ CaseInputs bed_inputs(const CaseInputs& inputs) {
   return bed;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -45,4 +45,4 @@ std::string_view staircase_of(const CaseInputs&);
 /// at its default.
 CaseInputs bed_inputs(const CaseInputs&);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double heartbeat_interval = 1;        // wall time [s]
-constexpr double hopeless_overlap = 0.5;        // of a contact, per diameter: grains have passed through each other
+constexpr double heartbeat_interval = 1;   // wall time [s]
+constexpr double hopeless_overlap = 0.5;   // of a contact, per diameter: grains have passed through each other
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -36,7 +36,8 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 std::string ailment(const StepHealth& health) {
   if (!health.finite) return "a velocity, force or pressure is not finite";
   if (health.deepest_overlap > hopeless_overlap)
-    return fmt::format("grains overlap by {:.2g} of a diameter (at most {} can be healed)", health.deepest_overlap, hopeless_overlap);
+    return fmt::format("grains overlap by {:.2g} of a diameter (at most {} can be healed)", health.deepest_overlap,
+                       hopeless_overlap);
   return {};
 }
 
@@ -85,14 +86,16 @@ State Worker::first_state() {
     published_step_ = newest->clock.step;
     return std::move(*newest);
   }
-  if (!case_.scene.bed_only && fs::exists(directory_ / "bed.h5")) return experiment_.begin_on(read_checkpoint(directory_ / "bed.h5"));
+  if (!case_.scene.bed_only && fs::exists(directory_ / "bed.h5"))
+    return experiment_.begin_on(read_checkpoint(directory_ / "bed.h5"));
   return experiment_.begin();
 }
 
 /// The ramp may have been made longer, or shorter than what is done already.
 void Worker::continue_or_end_ramp() {
   if (experiment_.reopen(state_)) return say("the ramp goes on: it was made longer, or its onset criterion changed");
-  const bool past_the_end = state_.search.phase == Search::holding && state_.search.hold >= case_.scene.drive.levels.size();
+  const bool past_the_end =
+      state_.search.phase == Search::holding && state_.search.hold >= case_.scene.drive.levels.size();
   if (past_the_end) state_.search.phase = Search::finished;
 }
 
@@ -121,9 +124,10 @@ bool Worker::reached() const {
 
 int Worker::advance() {
   const auto& bed = case_.scene.bed;
-  say(fmt::format("{}: {} grains, {} cells, E = {:.3g} Pa, DEM step {:.3g} s, fluid step at most {:.3g} s; from step {}", case_.label,
-                  state_.grains.size(), case_.scene.grid.cell_count(), bed.grains.young_modulus, bed.dem_step,
-                  case_.scene.steps.fluid_interval, state_.clock.step));
+  say(fmt::format(
+      "{}: {} grains, {} cells, E = {:.3g} Pa, DEM step {:.3g} s, fluid step at most {:.3g} s; from step {}",
+      case_.label, state_.grains.size(), case_.scene.grid.cell_count(), bed.grains.young_modulus, bed.dem_step,
+      case_.scene.steps.fluid_interval, state_.clock.step));
   last_checkpoint_ = now();
   while (!Experiment::finished(state_) && !reached() && !asked_to_stop()) {
     step();
@@ -144,7 +148,8 @@ void Worker::step() {
   const auto health = experiment_.step(state_);
   if (const auto cause = ailment(health); !cause.empty()) {
     throw Error(ErrorKind::numerical,
-                fmt::format("{}: step {} at {:.6g} s: {} (fluid step {:.3g} s, CFL {:.2g})", case_.label, state_.clock.step, state_.clock.time, cause, health.dt, health.cfl),
+                fmt::format("{}: step {} at {:.6g} s: {} (fluid step {:.3g} s, CFL {:.2g})", case_.label,
+                            state_.clock.step, state_.clock.time, cause, health.dt, health.cfl),
                 "the checkpoint before is kept; a shorter steps.dem or steps.fluid, or stiffer grains, may help");
   }
   if (coupled) performance_.add(health, state_.grains.size(), case_.scene.grid.cell_count());
@@ -194,14 +199,16 @@ bool complete(const fs::path& directory) {
   return state && !Experiment(one.scene).reopen(*state);
 }
 
-}  // namespace
+}   // namespace
 
 int run_case(const RunCaseRequest& request) {
   if (!fs::exists(request.directory / "case.toml"))
-    throw Error(ErrorKind::not_found, fmt::format("{} is not a case directory: it has no case.toml", request.directory.string()),
+    throw Error(ErrorKind::not_found,
+                fmt::format("{} is not a case directory: it has no case.toml", request.directory.string()),
                 "`bedload run STUDY --prepare` makes case directories");
   const StopSignals signals;
-  const auto lock = FileLock::lock_or_refuse(request.directory / "lock", fmt::format("case {}", request.directory.string()));
+  const auto lock =
+      FileLock::lock_or_refuse(request.directory / "lock", fmt::format("case {}", request.directory.string()));
   if (complete(request.directory)) {
     request.report("finished already");
     return 0;
@@ -209,4 +216,4 @@ int run_case(const RunCaseRequest& request) {
   return Worker(request).run();
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -10,8 +10,9 @@ namespace bedload {
 
 struct RunCaseRequest {
   std::filesystem::path directory;
-  std::optional<double> until;                          // model time of the ramp at which to stop [s]
-  std::function<void(const std::string&)> report;       // lines for people: the scene, the state, the performance at the end
+  std::optional<double> until;   // model time of the ramp at which to stop [s]
+  std::function<void(const std::string&)>
+      report;   // lines for people: the scene, the state, the performance at the end
 };
 
 /// Runs the case until it is finished, `until` is reached, or it is asked to stop (SIGUSR1, SIGTERM, SIGINT, a request
@@ -20,4 +21,4 @@ struct RunCaseRequest {
 /// study_invalid; the attempt's file says so too.
 int run_case(const RunCaseRequest&);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -14,7 +14,9 @@ namespace bedload {
 namespace {
 
 /// The number, or zero while inputs are still being resolved.
-double number_or_zero(const CaseInputs& inputs, std::string_view key) { return inputs.has(key) ? inputs.number(key) : 0; }
+double number_or_zero(const CaseInputs& inputs, std::string_view key) {
+  return inputs.has(key) ? inputs.number(key) : 0;
+}
 
 /// Rows of a table below its heading.
 std::uint64_t rows_of(const std::string& csv) {
@@ -26,9 +28,13 @@ std::uint64_t rows_of(const std::string& csv) {
 BedSource source_of(const CaseInputs& inputs) {
   using Kind = BedSource::Kind;
   const auto& source = inputs.word("bed.source");
-  const Kind kind = source == "poured" ? Kind::poured : source == "lattice" ? Kind::lattice : source == "file" ? Kind::file : Kind::none;
+  const Kind kind = source == "poured"    ? Kind::poured
+                    : source == "lattice" ? Kind::lattice
+                    : source == "file"    ? Kind::file
+                                          : Kind::none;
   BedSource made{.kind = kind, .csv = inputs.csv};
-  made.count = kind == Kind::file ? rows_of(inputs.csv) : static_cast<std::uint64_t>(number_or_zero(inputs, "bed.count"));
+  made.count =
+      kind == Kind::file ? rows_of(inputs.csv) : static_cast<std::uint64_t>(number_or_zero(inputs, "bed.count"));
   if (inputs.has("bed.seed")) made.seed = static_cast<std::uint64_t>(inputs.number("bed.seed"));
   return made;
 }
@@ -103,7 +109,7 @@ Terms terms_of(const CaseInputs& inputs) {
   return {on("drag"), on("buoyancy"), on("pressure_gradient"), on("viscous_stress")};
 }
 
-}  // namespace
+}   // namespace
 
 DragLawName drag_law_named(std::string_view name) {
   for (const auto law : {DragLawName::stokes, DragLawName::schiller_naumann, DragLawName::di_felice})
@@ -118,7 +124,8 @@ Scene scene_of(const CaseInputs& inputs) {
   scene.grid = grid_of(inputs, scene.bed);
   scene.drive = drive_of(inputs);
   scene.onset.method = inputs.word("onset.method") == "ramp" ? Onset::Method::ramp : Onset::Method::none;
-  scene.onset.criterion = inputs.word("onset.criterion") == "flux" ? Onset::Criterion::flux : Onset::Criterion::moving_fraction;
+  scene.onset.criterion =
+      inputs.word("onset.criterion") == "flux" ? Onset::Criterion::flux : Onset::Criterion::moving_fraction;
   scene.onset.value = inputs.number("onset.value");
   scene.drag = drag_law_named(inputs.word("models.drag"));
   scene.terms = terms_of(inputs);
@@ -128,4 +135,4 @@ Scene scene_of(const CaseInputs& inputs) {
   return scene;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -30,18 +30,21 @@ std::string attempt_in_words(const Attempt& a) {
 
 /// What the next `bedload run` does.
 std::string prospect(const Position& position, const std::vector<Attempt>& attempts, const fs::path& directory) {
-  if (const auto request = read_request(directory); request == Request::hold) return "it is on hold: `bedload retry` lets it go on";
+  if (const auto request = read_request(directory); request == Request::hold)
+    return "it is on hold: `bedload retry` lets it go on";
   const auto judgement = judge(position, attempts);
   switch (judgement.verdict) {
     case Verdict::done: return "it is done and is reused: the same physics gives the same bits";
     case Verdict::failed: return fmt::format("it failed ({}); `bedload retry` tries again", judgement.reason);
-    case Verdict::set_aside: return fmt::format("it is set aside ({}); the next `bedload run` tries again", judgement.reason);
+    case Verdict::set_aside:
+      return fmt::format("it is set aside ({}); the next `bedload run` tries again", judgement.reason);
     case Verdict::again: break;
   }
-  return position.step > 0 ? fmt::format("the next `bedload run` continues it from step {}", position.step) : "the next `bedload run` starts it";
+  return position.step > 0 ? fmt::format("the next `bedload run` continues it from step {}", position.step)
+                           : "the next `bedload run` starts it";
 }
 
-}  // namespace
+}   // namespace
 
 Rows scene_numbers(const Scene& scene) {
   const auto n = numbers_of(scene);
@@ -76,25 +79,29 @@ Rows scene_numbers(const Scene& scene) {
 Rows scene_models(const Scene& scene) {
   Rows rows{{"term", "on", "wanted", "ratio", "reason"}, {}};
   const auto yes = [](bool is) { return std::string(is ? "yes" : "no"); };
-  for (const auto& m : required_models(scene)) rows.rows.push_back({m.term, yes(m.on), yes(m.wanted), real_or_null(m.ratio), m.reason});
+  for (const auto& m : required_models(scene))
+    rows.rows.push_back({m.term, yes(m.on), yes(m.wanted), real_or_null(m.ratio), m.reason});
   return rows;
 }
 
 std::vector<std::string> story_of(const CaseEntry& entry, const fs::path& directory) {
-  if (!fs::exists(directory / "case.toml")) return {"it is new: the next `bedload run` makes its directory and starts it"};
+  if (!fs::exists(directory / "case.toml"))
+    return {"it is new: the next `bedload run` makes its directory and starts it"};
   std::vector<std::string> story;
   const auto attempts = read_attempts(directory);
   for (const auto& a : attempts) story.push_back(attempt_in_words(a));
   if (const auto holder = FileLock::holder(directory / "lock")) {
     const auto beat = read_heartbeat(directory);
-    story.push_back(fmt::format("it is running now: pid {} on {}{}", holder->pid, holder->host, beat ? fmt::format(", step {}", beat->step) : ""));
+    story.push_back(fmt::format("it is running now: pid {} on {}{}", holder->pid, holder->host,
+                                beat ? fmt::format(", step {}", beat->step) : ""));
     return story;
   }
-  if (!entry.bed.empty() && !has_bed(directory)) story.push_back(fmt::format("its bed {} has not settled yet", entry.bed.substr(0, 12)));
+  if (!entry.bed.empty() && !has_bed(directory))
+    story.push_back(fmt::format("its bed {} has not settled yet", entry.bed.substr(0, 12)));
   const auto newest = newest_position(directory);
   story.push_back(prospect({newest ? newest->step : 0, newest && newest->finished}, attempts, directory));
   if (!entry.in_study) story.push_back("it is no longer in the study file: its results are kept, out of the curve");
   return story;
 }
 
-}  // namespace bedload
+}   // namespace bedload

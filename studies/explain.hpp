@@ -20,4 +20,4 @@ Rows scene_models(const Scene&);
 /// Why a case stands where it stands: what is on disk, what its attempts did, what the next run will do with it.
 std::vector<std::string> story_of(const CaseEntry&, const std::filesystem::path& directory);
 
-}  // namespace bedload
+}   // namespace bedload

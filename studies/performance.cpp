@@ -17,10 +17,12 @@ std::string describe(const Performance& p, const StepTimes& t) {
   const double rest = t.total - (t.sample + t.drag + t.contacts + t.deposit + t.transport + t.pressure);
   return fmt::format(
       "{:.0f} fluid steps in {:.1f} s: {:.3g} grain-steps/s, {:.3g} fluid cell-steps/s, {:.3g} model seconds per hour\n"
-      "share of a step: contacts and motion {:.1f} %, pressure {:.1f} %, drag {:.1f} %, deposit {:.1f} %, sample {:.1f} %, "
+      "share of a step: contacts and motion {:.1f} %, pressure {:.1f} %, drag {:.1f} %, deposit {:.1f} %, sample "
+      "{:.1f} %, "
       "transport {:.1f} %, rest {:.1f} %",
       p.fluid_steps, t.total, p.grain_steps / t.total, p.cell_steps / t.total, 3600 * p.model_time / t.total,
-      share(t.contacts), share(t.pressure), share(t.drag), share(t.deposit), share(t.sample), share(t.transport), share(rest));
+      share(t.contacts), share(t.pressure), share(t.drag), share(t.deposit), share(t.sample), share(t.transport),
+      share(rest));
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -12,7 +12,7 @@ struct Performance {
   double grain_steps = 0;   // grains x DEM steps
   double cell_steps = 0;    // cells x fluid steps
   double fluid_steps = 0;
-  double model_time = 0;    // [s]
+  double model_time = 0;   // [s]
 
   void add(const StepHealth&, std::size_t grains, std::size_t cells);
 };
@@ -20,4 +20,4 @@ struct Performance {
 /// Lines for people: grain-steps/s, fluid cell-steps/s, model seconds per hour, share of each part of the step.
 std::string describe(const Performance&, const StepTimes&);
 
-}  // namespace bedload
+}   // namespace bedload

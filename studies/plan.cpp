@@ -23,7 +23,9 @@ namespace {
 /// What ends a ramp: no part of a case's identity, so it may differ from what the directory was made with.
 bool same_end(const CaseInputs& a, const CaseInputs& b) {
   const std::string steps = fmt::format("{}.steps", staircase_of(a));
-  const auto same = [&](std::string_view key) { return a.has(key) == b.has(key) && (!a.has(key) || a.values.find(key)->second == b.values.find(key)->second); };
+  const auto same = [&](std::string_view key) {
+    return a.has(key) == b.has(key) && (!a.has(key) || a.values.find(key)->second == b.values.find(key)->second);
+  };
   return same(steps) && same("onset.criterion") && same("onset.value");
 }
 
@@ -52,7 +54,7 @@ int physics_version_of(const CaseEntry& entry) {
   return parameters.is_object() ? parameters.value("physics_version", physics_version) : physics_version;
 }
 
-}  // namespace
+}   // namespace
 
 std::string_view word(Fate fate) { return fate == Fate::fresh ? "new" : fate == Fate::kept ? "kept" : "extended"; }
 
@@ -75,13 +77,16 @@ Plan make_plan(std::vector<Case> cases, const std::vector<CaseEntry>& known, con
 Cost predicted_cost(const Scene& scene) {
   constexpr double grain_steps_per_second = 6e6, seconds_per_cell_step = 180e-9;   // docs/performance.md
   constexpr double bytes_per_grain = 121, contacts_per_grain = 3, bytes_per_contact = 32, bytes_per_cell = 32;
-  const double grains = static_cast<double>(scene.bed.source.count), cells = static_cast<double>(scene.grid.cell_count());
+  const double grains = static_cast<double>(scene.bed.source.count),
+               cells = static_cast<double>(scene.grid.cell_count());
   const double time = scene.drive.dwell * static_cast<double>(scene.drive.levels.size());
   Cost cost;
-  cost.core_seconds = grains * time / scene.bed.dem_step / grain_steps_per_second + cells * time / scene.steps.fluid_interval * seconds_per_cell_step;
-  const double checkpoint = grains * (bytes_per_grain + contacts_per_grain * bytes_per_contact) + cells * bytes_per_cell;
+  cost.core_seconds = grains * time / scene.bed.dem_step / grain_steps_per_second +
+                      cells * time / scene.steps.fluid_interval * seconds_per_cell_step;
+  const double checkpoint =
+      grains * (bytes_per_grain + contacts_per_grain * bytes_per_contact) + cells * bytes_per_cell;
   cost.bytes = 3 * checkpoint;
   return cost;
 }
 
-}  // namespace bedload
+}   // namespace bedload

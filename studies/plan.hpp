@@ -11,9 +11,9 @@
 namespace bedload {
 
 enum class Fate {
-  fresh,      // nothing of it exists
-  kept,       // exists, done or part-done: goes on from where it stands
-  extended    // was finished, and goes on: its ramp was made longer or its onset criterion changed
+  fresh,     // nothing of it exists
+  kept,      // exists, done or part-done: goes on from where it stands
+  extended   // was finished, and goes on: its ramp was made longer or its onset criterion changed
 };
 std::string_view word(Fate);
 
@@ -26,9 +26,9 @@ struct PlannedCase {
 
 struct Plan {
   std::vector<PlannedCase> cases;
-  std::vector<CaseInputs> beds;          // to settle, one per bed that cases share
-  std::vector<CaseEntry> dropped;        // in the database, no longer in the study file
-  std::vector<CaseEntry> other_physics;  // of them, those computed under another physics_version
+  std::vector<CaseInputs> beds;           // to settle, one per bed that cases share
+  std::vector<CaseEntry> dropped;         // in the database, no longer in the study file
+  std::vector<CaseEntry> other_physics;   // of them, those computed under another physics_version
 };
 
 /// `known`: what the database has (nothing for a study that was never run).
@@ -41,4 +41,4 @@ struct Cost {
 };
 Cost predicted_cost(const Scene&);
 
-}  // namespace bedload
+}   // namespace bedload

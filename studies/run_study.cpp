@@ -40,8 +40,8 @@ std::optional<State> newest_state(const fs::path& directory) {
 /// Who computed the final state: the last attempt, as far as it said.
 Provenance provenance_of(const fs::path& directory) {
   const auto build = build_info();
-  Provenance made{fmt::format("{} {}", build.version, build.commit), std::string(build.compiler), std::string(build.flags),
-                  std::string(build.libraries), host_name()};
+  Provenance made{fmt::format("{} {}", build.version, build.commit), std::string(build.compiler),
+                  std::string(build.flags), std::string(build.libraries), host_name()};
   if (const auto attempts = read_attempts(directory); !attempts.empty()) {
     made.version = attempts.back().version, made.compiler = attempts.back().compiler, made.host = attempts.back().host;
   }
@@ -66,7 +66,8 @@ Position position_of(const fs::path& directory) {
 void reopen(const fs::path& directory, const Scene& scene) {
   const auto lock = FileLock::lock_or_refuse(directory / "lock", fmt::format("case {}", directory.string()));
   auto state = newest_state(directory);
-  if (state && Experiment(scene).reopen(*state)) CheckpointSeries(directory, 2, [](const std::string&) {}).publish(*state);
+  if (state && Experiment(scene).reopen(*state))
+    CheckpointSeries(directory, 2, [](const std::string&) {}).publish(*state);
 }
 
 /// The result directory is a study too: a table of grains that the copied study file names stands where it names it.
@@ -82,7 +83,10 @@ void copy_table(const CaseInputs& inputs, const fs::path& results) {
 class StudyRun {
  public:
   explicit StudyRun(const RunStudyRequest& request)
-      : request_(request), study_(read_study(request.place.file)), directory_(request.place.directory), cases_(unfold(study_)) {}
+      : request_(request),
+        study_(read_study(request.place.file)),
+        directory_(request.place.directory),
+        cases_(unfold(study_)) {}
 
   int run();
 
@@ -105,24 +109,32 @@ class StudyRun {
 };
 
 SchedulerWorld StudyRun::world() const {
-  const auto seconds = [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
-  return {.newest = position_of, .on_finished = store_results_of, .clock = seconds, .interrupts = InterruptCounter::count};
+  const auto seconds = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  };
+  return {
+      .newest = position_of, .on_finished = store_results_of, .clock = seconds, .interrupts = InterruptCounter::count};
 }
 
 /// Results that would fall out of the study are worth a question.
 void StudyRun::refuse_to_abandon(const Plan& plan) const {
   if (!plan.other_physics.empty() && !request_.recompute) {
-    throw Error(ErrorKind::study_invalid,
-                fmt::format("{} cases of {} were computed under another physics_version than this bedload's {} and cannot go on", plan.other_physics.size(),
-                            directory_.string(), physics_version),
-                "--recompute starts them anew (the old results stay in the database, marked); or use the bedload that computed them");
+    throw Error(
+        ErrorKind::study_invalid,
+        fmt::format(
+            "{} cases of {} were computed under another physics_version than this bedload's {} and cannot go on",
+            plan.other_physics.size(), directory_.string(), physics_version),
+        "--recompute starts them anew (the old results stay in the database, marked); or use the bedload that computed "
+        "them");
   }
   const auto is_new = [](const PlannedCase& c) { return c.fate == Fate::fresh; };
   const bool all_dropped = !plan.dropped.empty() && std::ranges::all_of(plan.cases, is_new);
   if (!all_dropped || request_.replace || request_.recompute) return;
-  throw Error(ErrorKind::study_invalid,
-              fmt::format("no case of {} is in the study file any more: all {} would be dropped", directory_.string(), plan.dropped.size()),
-              "--replace does that (their results stay, marked as out of the study); a new name in the study file keeps both");
+  throw Error(
+      ErrorKind::study_invalid,
+      fmt::format("no case of {} is in the study file any more: all {} would be dropped", directory_.string(),
+                  plan.dropped.size()),
+      "--replace does that (their results stay, marked as out of the study); a new name in the study file keeps both");
 }
 
 void StudyRun::copy_study_file() const {
@@ -197,13 +209,27 @@ int StudyRun::schedule(Ledger& ledger) {
   const int asked = request_.cores.value_or(study_.run.cores);
   const InterruptCounter interrupts;
   ProcessExecutor executor({fs::read_symlink("/proc/self/exe").string(), "case"});
-  auto work = scheduler(ledger, executor, {.cores = asked > 0 ? asked : all_cores, .only = chosen(), .stall_limit = study_.run.stall_limit});
+  auto work =
+      scheduler(ledger, executor,
+                {.cores = asked > 0 ? asked : all_cores, .only = chosen(), .stall_limit = study_.run.stall_limit});
   const auto outcome = work.run();
-  log_note(fmt::format("{}: {} done, {} failed, {} left", directory_.string(), outcome.done, outcome.failed, outcome.left));
+  log_note(
+      fmt::format("{}: {} done, {} failed, {} left", directory_.string(), outcome.done, outcome.failed, outcome.left));
   return outcome.exit_code;
 }
 
+/// A directory of that name that holds something else is left alone.
+void refuse_foreign_directory(const fs::path& directory) {
+  if (!fs::is_directory(directory) || fs::is_empty(directory)) return;
+  for (const auto* sign : {"lock", "study.db", "study.toml"})
+    if (fs::exists(directory / sign)) return;
+  throw Error(ErrorKind::study_invalid,
+              fmt::format("{} exists and is no result directory of bedload", directory.string()),
+              "another name in the study file, or --out");
+}
+
 int StudyRun::run() {
+  refuse_foreign_directory(directory_);
   chosen();   // a misspelt --only is found before anything is written
   make_writable_directory(directory_);
   const auto lock = lock_study(directory_);
@@ -220,12 +246,13 @@ int StudyRun::run() {
   enrol(ledger, plan);
   make_directories(plan);
   if (!request_.prepare) return schedule(ledger);
-  log_note(fmt::format("{} cases are prepared in {}; nothing was started", cases_.size(), (directory_ / "cases").string()));
+  log_note(
+      fmt::format("{} cases are prepared in {}; nothing was started", cases_.size(), (directory_ / "cases").string()));
   return 0;
 }
 
-}  // namespace
+}   // namespace
 
 int run_study(const RunStudyRequest& request) { return StudyRun(request).run(); }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -26,4 +26,4 @@ struct RunStudyRequest {
 /// Nothing is written before the study has been read, resolved and validated, and its lock taken.
 int run_study(const RunStudyRequest&);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -12,10 +12,11 @@ namespace bedload {
 namespace {
 
 bool equal(const Quantity& a, const Quantity& b) {
-  return a.value == b.value && a.dimension == b.dimension && a.diameters == b.diameters && a.grain_times == b.grain_times;
+  return a.value == b.value && a.dimension == b.dimension && a.diameters == b.diameters &&
+         a.grain_times == b.grain_times;
 }
 
-}  // namespace
+}   // namespace
 
 bool same_value(const Setting& a, const Setting& b) {
   if (a.value.index() != b.value.index()) return false;
@@ -49,4 +50,4 @@ void Problems::throw_if_any() const {
   throw Error(ErrorKind::study_invalid, lines);
 }
 
-}  // namespace bedload
+}   // namespace bedload

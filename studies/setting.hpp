@@ -54,4 +54,4 @@ class Problems {
   std::vector<Problem> problems_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

@@ -10,7 +10,7 @@ constexpr int signals[] = {SIGUSR1, SIGTERM, SIGINT};
 volatile std::sig_atomic_t noted = 0;
 void note(int) { noted = 1; }
 
-}  // namespace
+}   // namespace
 
 StopSignals::StopSignals() {
   noted = 0;
@@ -26,4 +26,4 @@ StopSignals::~StopSignals() {
 
 bool StopSignals::arrived() { return noted != 0; }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -14,4 +14,4 @@ class StopSignals {
   static bool arrived();
 };
 
-}  // namespace bedload
+}   // namespace bedload

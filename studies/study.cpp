@@ -54,7 +54,8 @@ std::string in_label(const Setting& setting) {
     return initials;
   }
   std::string text;
-  const bool density = std::holds_alternative<Quantity>(setting.value) && std::get<Quantity>(setting.value).dimension == dimension::density;
+  const bool density = std::holds_alternative<Quantity>(setting.value) &&
+                       std::get<Quantity>(setting.value).dimension == dimension::density;
   const auto end = density && setting.text.ends_with("kg/m3") ? setting.text.size() - 5 : setting.text.size();
   for (const char c : setting.text.substr(0, end)) {
     if (c == ' ') continue;
@@ -120,11 +121,13 @@ void check_twins(const std::vector<Case>& cases, Problems& problems) {
   std::map<std::string, std::string> seen;
   for (const auto& one : cases) {
     const auto [earlier, is_new] = seen.emplace(one.id, one.label);
-    if (!is_new) problems.add({}, fmt::format("{} and {} are the same case", earlier->second, one.label), "remove one of the values");
+    if (!is_new)
+      problems.add({}, fmt::format("{} and {} are the same case", earlier->second, one.label),
+                   "remove one of the values");
   }
 }
 
-}  // namespace
+}   // namespace
 
 std::vector<Case> unfold(const Study& study) {
   Problems problems(study.file.string());
@@ -136,8 +139,10 @@ std::vector<Case> unfold(const Study& study) {
     auto inputs = resolve(settings, study.file.parent_path(), problems);
     if (!problems.empty()) continue;
     auto one = make_case(study, choice, std::move(inputs));
-    for (const auto& p : problems_of(one.scene)) problems.add(place_in(settings, p.parameter), fmt::format("{}: {}", p.parameter, p.message), p.hint);
-    if (problems.empty() && placed.insert(one.bed_id.empty() ? one.id : one.bed_id).second) check_placing(one.scene, settings, problems);
+    for (const auto& p : problems_of(one.scene))
+      problems.add(place_in(settings, p.parameter), fmt::format("{}: {}", p.parameter, p.message), p.hint);
+    if (problems.empty() && placed.insert(one.bed_id.empty() ? one.id : one.bed_id).second)
+      check_placing(one.scene, settings, problems);
     cases.push_back(std::move(one));
   }
   check_twins(cases, problems);
@@ -150,4 +155,4 @@ fs::path result_directory(const Study& study, const std::optional<fs::path>& out
   return out ? *out : study.file.parent_path() / study.name;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -23,28 +23,28 @@ struct RunOptions {
   int cores = 0;                   // 0 = all
   double checkpoint_every = 300;   // wall time [s]
   int checkpoint_keep = 2;
-  double stall_limit = 600;        // wall time [s]
+  double stall_limit = 600;   // wall time [s]
 };
 
 /// A study file, read and checked value by value.
 struct Study {
   std::string name;
   std::filesystem::path file;
-  std::string text;                    // the file's bytes
-  Settings settings;                   // of the keys that do not vary
-  std::vector<Axis> axes;              // in order of study_keys()
-  std::vector<Settings> exclusions;    // combinations left out
+  std::string text;                   // the file's bytes
+  Settings settings;                  // of the keys that do not vary
+  std::vector<Axis> axes;             // in order of study_keys()
+  std::vector<Settings> exclusions;   // combinations left out
   RunOptions run;
 };
 
 /// One point of a study.
 struct Case {
-  std::string id;          // 64 hex digits; directories carry the first 12
-  std::string label;       // "d0.5mm-rho2000-s1"
-  std::string set;         // digest without the seed, and the label without it
+  std::string id;      // 64 hex digits; directories carry the first 12
+  std::string label;   // "d0.5mm-rho2000-s1"
+  std::string set;     // digest without the seed, and the label without it
   std::string set_label;
   std::uint64_t seed = 1;
-  std::string bed_id;      // of the bed it starts on; empty when its grains are not settled first
+  std::string bed_id;   // of the bed it starts on; empty when its grains are not settled first
   CaseInputs inputs;
   Scene scene;
 };
@@ -56,4 +56,4 @@ std::vector<Case> unfold(const Study&);
 /// The directory that holds a study's results: named after the study, beside its file; or `out`.
 std::filesystem::path result_directory(const Study&, const std::optional<std::filesystem::path>& out);
 
-}  // namespace bedload
+}   // namespace bedload

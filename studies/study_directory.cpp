@@ -20,7 +20,8 @@ StudyPlace find_study(const fs::path& named, const std::optional<fs::path>& out)
   const auto file = results ? named / "study.toml" : named;
   if (!fs::exists(file)) {
     throw Error(ErrorKind::not_found,
-                results ? fmt::format("{} is not a study: it has no study.toml", named.string()) : fmt::format("there is no study file {}", named.string()),
+                results ? fmt::format("{} is not a study: it has no study.toml", named.string())
+                        : fmt::format("there is no study file {}", named.string()),
                 "`bedload new NAME` makes one to start from");
   }
   if (results) return {file, out.value_or(named), named.string()};
@@ -33,7 +34,8 @@ fs::path database_file(const fs::path& results) { return results / "study.db"; }
 
 Database open_results(const StudyPlace& place) {
   if (!fs::exists(database_file(place.directory)))
-    throw Error(ErrorKind::not_found, fmt::format("{} has no results: there is no {}", place.name, database_file(place.directory).string()),
+    throw Error(ErrorKind::not_found,
+                fmt::format("{} has no results: there is no {}", place.name, database_file(place.directory).string()),
                 fmt::format("bedload run {}", place.name));
   return Database(database_file(place.directory), Database::Mode::query);
 }
@@ -48,7 +50,8 @@ std::vector<CaseEntry> matching_cases(const std::vector<CaseEntry>& entries, con
   std::string some;
   for (const auto& entry : entries)
     if (!entry.is_bed && some.size() < 80) some += fmt::format("{}{}", some.empty() ? "" : ", ", entry.label);
-  throw Error(ErrorKind::not_found, fmt::format("no case is named {}", word), fmt::format("cases are {}; a glob such as \"d0.5mm-*\" or an id prefix works too", some));
+  throw Error(ErrorKind::not_found, fmt::format("no case is named {}", word),
+              fmt::format("cases are {}; a glob such as \"d0.5mm-*\" or an id prefix works too", some));
 }
 
 void link_labels(const fs::path& results, const std::vector<Case>& cases) {
@@ -67,4 +70,4 @@ void link_labels(const fs::path& results, const std::vector<Case>& cases) {
     if (entry.is_symlink() && !labels.contains(entry.path().filename().string())) fs::remove(entry.path());
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -35,4 +35,4 @@ std::vector<CaseEntry> matching_cases(const std::vector<CaseEntry>&, const std::
 /// by-label/<label> -> ../cases/<id>, for every case; others are removed.
 void link_labels(const std::filesystem::path& results, const std::vector<Case>&);
 
-}  // namespace bedload
+}   // namespace bedload

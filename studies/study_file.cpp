@@ -109,7 +109,8 @@ void Reader::walk(const toml::table& table, const std::string& prefix, Settings&
   }
 }
 
-void Reader::entry(const std::string& path, const toml::key& key, const toml::node& node, Settings& into, bool axes_allowed) {
+void Reader::entry(const std::string& path, const toml::key& key, const toml::node& node, Settings& into,
+                   bool axes_allowed) {
   if (const auto* known = find_key(path)) return value_or_axis(*known, node, into, axes_allowed);
   if (!is_table(path)) return unknown(path, place_of(key));
   if (const auto* table = node.as_table()) return walk(*table, path + ".", into, axes_allowed);
@@ -143,16 +144,22 @@ void Reader::value_or_axis(const StudyKey& key, const toml::node& node, Settings
 void Reader::axis(const StudyKey& key, const toml::array& list) {
   const std::string path(key.path);
   if (case_file_ || !key.physics) {
-    return problems_.add(place_of(list), fmt::format("{}: a list is an axis, and this key is not physics: it cannot vary within a study", path),
-                         "give one value");
+    return problems_.add(
+        place_of(list),
+        fmt::format("{}: a list is an axis, and this key is not physics: it cannot vary within a study", path),
+        "give one value");
   }
-  if (list.empty()) return problems_.add(place_of(list), fmt::format("{}: the list is empty", path), "an axis needs a value");
+  if (list.empty())
+    return problems_.add(place_of(list), fmt::format("{}: the list is empty", path), "an axis needs a value");
   Axis made{path, {}};
   for (std::size_t n = 0; n < list.size(); ++n) {
     auto one = value(key, indexed(path, n + 1), list[n]);
     if (!one) continue;
-    const bool twice = std::ranges::any_of(made.values, [&](const Setting& earlier) { return same_value(earlier, *one); });
-    if (twice) problems_.add(one->place, fmt::format("{}: {} stands twice in this list", indexed(path, n + 1), one->text), "remove one");
+    const bool twice =
+        std::ranges::any_of(made.values, [&](const Setting& earlier) { return same_value(earlier, *one); });
+    if (twice)
+      problems_.add(one->place, fmt::format("{}: {} stands twice in this list", indexed(path, n + 1), one->text),
+                    "remove one");
     else made.values.push_back(std::move(*one));
   }
   axes.push_back(std::move(made));
@@ -163,26 +170,32 @@ void Reader::counted_seeds(const StudyKey& key, const toml::table& table, bool a
   const auto* node = table.get("count");
   const std::string path(key.path);
   if (!node || table.size() != 1 || !axes_allowed || case_file_) {
-    return problems_.add(place_of(table), fmt::format("{}: {} is not a seed", path, shown(table)), "write seed = { count = 3 } or seed = 1");
+    return problems_.add(place_of(table), fmt::format("{}: {} is not a seed", path, shown(table)),
+                         "write seed = { count = 3 } or seed = 1");
   }
   const auto counted = value(key, path + ".count", *node);
   if (!counted) return;
   Axis made{path, {}};
-  for (int n = 1; n <= std::get<double>(counted->value); ++n) made.values.push_back({double(n), fmt::format("{}", n), place_of(*node)});
+  for (int n = 1; n <= std::get<double>(counted->value); ++n)
+    made.values.push_back({double(n), fmt::format("{}", n), place_of(*node)});
   axes.push_back(std::move(made));
 }
 
 void Reader::exclusions_of(const toml::node& node) {
   const auto* list = node.as_array();
   if (!list || !list->is_homogeneous(toml::node_type::table) || case_file_) {
-    return problems_.add(place_of(node), "exclude: this is not a list of tables", "write [[exclude]] and below it, for example, grains.diameter = \"0.5 mm\"");
+    return problems_.add(place_of(node), "exclude: this is not a list of tables",
+                         "write [[exclude]] and below it, for example, grains.diameter = \"0.5 mm\"");
   }
   for (const auto& table : *list) {
     Settings one;
     walk(*table.as_table(), "", one, false);
     for (const auto& [path, setting] : one) {
-      const bool varies = std::ranges::any_of(axes, [&, p = std::string_view(path)](const Axis& a) { return a.key == p; });
-      if (!varies) problems_.add(setting.place, fmt::format("exclude: {} does not vary in this study", path), "name keys that are axes");
+      const bool varies =
+          std::ranges::any_of(axes, [&, p = std::string_view(path)](const Axis& a) { return a.key == p; });
+      if (!varies)
+        problems_.add(setting.place, fmt::format("exclude: {} does not vary in this study", path),
+                      "name keys that are axes");
     }
     exclusions.push_back(std::move(one));
   }
@@ -206,17 +219,22 @@ std::optional<Setting> Reader::value(const StudyKey& key, const std::string& nam
 }
 
 bool Reader::in_range(const StudyKey& key, const std::string& name, const toml::node& node, double value) {
-  const bool good = std::isfinite(value) && (key.range == Range::any || value > 0 || (key.range == Range::not_negative && value == 0));
+  const bool good = std::isfinite(value) &&
+                    (key.range == Range::any || value > 0 || (key.range == Range::not_negative && value == 0));
   if (good) return true;
-  const auto wanted = !std::isfinite(value) ? "finite" : key.range == Range::positive ? "greater than zero" : "zero or greater";
-  problems_.add(place_of(node), fmt::format("{}: {} must be {}", name, shown(node), wanted), fmt::format("give a value that is {}", wanted));
+  const auto wanted = !std::isfinite(value)          ? "finite"
+                      : key.range == Range::positive ? "greater than zero"
+                                                     : "zero or greater";
+  problems_.add(place_of(node), fmt::format("{}: {} must be {}", name, shown(node), wanted),
+                fmt::format("give a value that is {}", wanted));
   return false;
 }
 
 std::optional<SettingValue> Reader::number(const StudyKey& key, const std::string& name, const toml::node& node) {
   const auto read = node.is_number() ? node.value<double>() : std::nullopt;
   if (!read) {
-    problems_.add(place_of(node), fmt::format("{}: {} is not a number", name, shown(node)), "write a bare number, without quotes and unit");
+    problems_.add(place_of(node), fmt::format("{}: {} is not a number", name, shown(node)),
+                  "write a bare number, without quotes and unit");
     return std::nullopt;
   }
   if (!in_range(key, name, node, *read)) return std::nullopt;
@@ -228,7 +246,8 @@ std::optional<SettingValue> Reader::count(const StudyKey& key, const std::string
   const auto read = node.value_exact<std::int64_t>();
   if (!read || *read > 4'000'000'000) {
     const auto instead = key.choices.empty() ? std::string() : fmt::format(" or \"{}\"", key.choices);
-    problems_.add(place_of(node), fmt::format("{}: {} is not a whole number", name, shown(node)), fmt::format("write a whole number{}", instead));
+    problems_.add(place_of(node), fmt::format("{}: {} is not a whole number", name, shown(node)),
+                  fmt::format("write a whole number{}", instead));
     return std::nullopt;
   }
   if (!in_range(key, name, node, static_cast<double>(*read))) return std::nullopt;
@@ -245,7 +264,8 @@ std::optional<SettingValue> Reader::quantity(const StudyKey& key, const std::str
     return read;
   } catch (const UnitError& problem) {
     const auto instead = key.choices.empty() ? std::string() : fmt::format("; or \"{}\"", key.choices);
-    problems_.add(place_of(node), fmt::format("{}: {}", name, problem.what()), problem.hint.empty() ? "" : problem.hint + instead);
+    problems_.add(place_of(node), fmt::format("{}: {}", name, problem.what()),
+                  problem.hint.empty() ? "" : problem.hint + instead);
     return std::nullopt;
   }
 }
@@ -254,7 +274,8 @@ std::optional<SettingValue> Reader::word(const StudyKey& key, const std::string&
   const auto* text = node.as_string();
   const auto alternatives = "one of " + listed(key.choices);
   if (!text || text->get().empty()) {
-    problems_.add(place_of(node), fmt::format("{}: {} is not a word in quotes", name, shown(node)), key.choices.empty() ? "" : alternatives);
+    problems_.add(place_of(node), fmt::format("{}: {} is not a word in quotes", name, shown(node)),
+                  key.choices.empty() ? "" : alternatives);
     return std::nullopt;
   }
   if (key.choices.empty() || is_one_of(text->get(), key.choices)) return text->get();
@@ -272,7 +293,8 @@ std::optional<SettingValue> Reader::words(const StudyKey& key, const std::string
   if (const auto* text = node.as_string(); text && text->get() == "auto") return text->get();
   const auto* list = node.as_array();
   if (!list) {
-    problems_.add(place_of(node), fmt::format("{}: {} is not a list", name, shown(node)), "write \"auto\" or a list such as [\"drag\", \"buoyancy\"]");
+    problems_.add(place_of(node), fmt::format("{}: {} is not a list", name, shown(node)),
+                  "write \"auto\" or a list such as [\"drag\", \"buoyancy\"]");
     return std::nullopt;
   }
   std::vector<std::string> read;
@@ -293,7 +315,8 @@ std::optional<SettingValue> Reader::ids(const std::string& name, const toml::nod
     if (one && *one >= 0) read.push_back(static_cast<std::uint64_t>(*one));
   }
   if (list && read.size() == list->size()) return read;
-  problems_.add(place_of(node), fmt::format("{}: {} is not a list of grain ids", name, shown(node)), "ids are whole numbers from 0: [0, 12]");
+  problems_.add(place_of(node), fmt::format("{}: {} is not a list of grain ids", name, shown(node)),
+                "ids are whole numbers from 0: [0, 12]");
   return std::nullopt;
 }
 
@@ -303,7 +326,8 @@ toml::table parse(const std::string& text, const std::string& name) {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
     const auto at = error.source().begin;
-    throw Error(ErrorKind::study_invalid, fmt::format("{}:{}:{}: error: {}", name, at.line, at.column, error.description()),
+    throw Error(ErrorKind::study_invalid,
+                fmt::format("{}:{}:{}: error: {}", name, at.line, at.column, error.description()),
                 "values with a unit stand in quotes: diameter = \"0.5 mm\"");
   }
 }
@@ -322,8 +346,10 @@ RunOptions run_options(const Settings& settings, Problems& problems) {
     return found == settings.end() ? nullptr : &found->second;
   };
   if (const auto* ranks = find("run.ranks"); ranks && std::get<double>(ranks->value) != 1)
-    problems.add(ranks->place, fmt::format("run.ranks: {} ranks per case are not in this version", ranks->text), "ranks = 1; cases run side by side on all cores");
-  if (const auto* cores = find("run.cores"); cores && std::holds_alternative<double>(cores->value)) run.cores = int(std::get<double>(cores->value));
+    problems.add(ranks->place, fmt::format("run.ranks: {} ranks per case are not in this version", ranks->text),
+                 "ranks = 1; cases run side by side on all cores");
+  if (const auto* cores = find("run.cores"); cores && std::holds_alternative<double>(cores->value))
+    run.cores = int(std::get<double>(cores->value));
   if (const auto* keep = find("run.checkpoint.keep")) run.checkpoint_keep = int(std::get<double>(keep->value));
   run.checkpoint_every = si_number(settings, "run.checkpoint.every");
   run.stall_limit = si_number(settings, "run.stall_limit");
@@ -332,10 +358,11 @@ RunOptions run_options(const Settings& settings, Problems& problems) {
 
 void check_name(const Setting* name, Problems& problems) {
   if (!name || std::get<std::string>(name->value).find_first_of("/\\ \t\n") == std::string::npos) return;
-  problems.add(name->place, fmt::format("name: \"{}\" cannot be the name of a directory", name->text), "letters, digits, - and _");
+  problems.add(name->place, fmt::format("name: \"{}\" cannot be the name of a directory", name->text),
+               "letters, digits, - and _");
 }
 
-}  // namespace
+}   // namespace
 
 Study parse_study(const std::string& text, const std::string& name) {
   const auto root = parse(text, name);
@@ -366,4 +393,4 @@ Study read_study(const std::filesystem::path& file) { return parse_study(read_te
 
 CaseFile read_case_file(const std::filesystem::path& file) { return parse_case_file(read_text(file), file.string()); }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -24,4 +24,4 @@ CaseFile read_case_file(const std::filesystem::path&);
 Study parse_study(const std::string& text, const std::string& name);
 CaseFile parse_case_file(const std::string& text, const std::string& name);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -14,81 +14,110 @@ namespace {
 using Kind = StudyKey::Kind;
 using Range = StudyKey::Range;
 
+/// A quantity greater than zero.
+constexpr StudyKey amount(std::string_view path, Dimension dimension, std::string_view label,
+                          std::string_view fallback = {}, std::string_view choices = {}) {
+  return {path, Kind::quantity, dimension, Range::positive, choices, {}, fallback, true, label};
+}
+/// A quantity of either sign.
+constexpr StudyKey signed_amount(std::string_view path, Dimension dimension, std::string_view label) {
+  return {path, Kind::quantity, dimension, Range::any, {}, {}, {}, true, label};
+}
+constexpr StudyKey number(std::string_view path, Range range, std::string_view label, std::string_view fallback = {}) {
+  return {path, Kind::number, dimension::number, range, {}, {}, fallback, true, label};
+}
+constexpr StudyKey count(std::string_view path, std::string_view label, std::string_view fallback = {},
+                         std::string_view choices = {}) {
+  return {path, Kind::count, dimension::number, Range::positive, choices, {}, fallback, true, label};
+}
+constexpr StudyKey word(std::string_view path, std::string_view label, std::string_view choices,
+                        std::string_view fallback = {}, std::string_view later = {}) {
+  return {path, Kind::word, dimension::number, Range::any, choices, later, fallback, true, label};
+}
+constexpr StudyKey text(std::string_view path, std::string_view label) {
+  return {.path = path, .kind = Kind::text, .label = label};
+}
+/// No part of a case's identity.
+constexpr StudyKey not_physics(StudyKey key) {
+  key.physics = false;
+  return key;
+}
+
+constexpr std::string_view later_laws =
+    "oseen|brown_lawler|dallavalle|rong|wen_yu|ergun|gidaspow_ergun_wen_yu|beetstra|tenneti|tang";
 constexpr std::string_view later_terms =
     "added_mass|shear_lift|magnus|lubrication|viscous_torque|self_disturbance|wall_drag|turbulence";
+constexpr std::string_view terms = "drag|buoyancy|pressure_gradient|viscous_stress";
 
-// clang-format off
 constexpr StudyKey keys[] = {
-    {.path = "name", .kind = Kind::text, .physics = false},
+    not_physics(text("name", "")),
 
-    {.path = "fluid.density", .kind = Kind::quantity, .dimension = dimension::density, .range = Range::positive, .label = "rhof"},
-    {.path = "fluid.viscosity", .kind = Kind::quantity, .dimension = dimension::viscosity, .range = Range::positive, .label = "nu"},
+    amount("fluid.density", dimension::density, "rhof"),
+    amount("fluid.viscosity", dimension::viscosity, "nu"),
 
-    {.path = "grains.diameter", .kind = Kind::quantity, .dimension = dimension::length, .range = Range::positive, .label = "d"},
-    {.path = "grains.density", .kind = Kind::quantity, .dimension = dimension::density, .range = Range::positive, .label = "rho"},
-    {.path = "grains.spread", .range = Range::not_negative, .fallback = "0.05", .label = "spread"},
-    {.path = "grains.friction", .range = Range::not_negative, .fallback = "0.4", .label = "mu"},
-    {.path = "grains.restitution", .range = Range::positive, .fallback = "0.6", .label = "e"},
-    {.path = "grains.poisson", .range = Range::not_negative, .fallback = "0.3", .label = "poisson"},
-    {.path = "grains.rolling_friction", .range = Range::not_negative, .fallback = "0.0", .label = "mur"},
-    {.path = "grains.stiffness", .kind = Kind::quantity, .dimension = dimension::pressure, .range = Range::positive, .choices = "auto", .fallback = "auto", .label = "E"},
+    amount("grains.diameter", dimension::length, "d"),
+    amount("grains.density", dimension::density, "rho"),
+    number("grains.spread", Range::not_negative, "spread", "0.05"),
+    number("grains.friction", Range::not_negative, "mu", "0.4"),
+    number("grains.restitution", Range::positive, "e", "0.6"),
+    number("grains.poisson", Range::not_negative, "poisson", "0.3"),
+    number("grains.rolling_friction", Range::not_negative, "mur", "0.0"),
+    amount("grains.stiffness", dimension::pressure, "E", "auto", "auto"),
 
-    {.path = "bed.source", .kind = Kind::word, .choices = "poured|lattice|file|none", .fallback = "poured", .label = "bed"},
-    {.path = "bed.count", .kind = Kind::count, .range = Range::positive, .label = "n"},
-    {.path = "bed.depth", .kind = Kind::quantity, .dimension = dimension::length, .range = Range::positive, .label = "depth"},
-    {.path = "bed.file", .kind = Kind::text, .label = "file"},
-    {.path = "bed.seed", .kind = Kind::count, .range = Range::positive, .fallback = "1", .label = "s"},
+    word("bed.source", "bed", "poured|lattice|file|none", "poured"),
+    count("bed.count", "n"),
+    amount("bed.depth", dimension::length, "depth"),
+    text("bed.file", "file"),
+    count("bed.seed", "s", "1"),
 
-    {.path = "box.length", .kind = Kind::quantity, .dimension = dimension::length, .range = Range::positive, .label = "L"},
-    {.path = "box.width", .kind = Kind::quantity, .dimension = dimension::length, .range = Range::positive, .label = "W"},
-    {.path = "box.height", .kind = Kind::quantity, .dimension = dimension::length, .range = Range::positive, .label = "H"},
-    {.path = "box.cell.xy", .kind = Kind::quantity, .dimension = dimension::length, .range = Range::positive, .fallback = "2 d", .label = "hxy"},
-    {.path = "box.cell.z", .kind = Kind::quantity, .dimension = dimension::length, .range = Range::positive, .fallback = "0.5 d", .label = "hz"},
-    {.path = "box.x", .kind = Kind::word, .choices = "periodic|wall", .fallback = "periodic", .label = "x"},
-    {.path = "box.y", .kind = Kind::word, .choices = "periodic|wall", .fallback = "periodic", .label = "y"},
-    {.path = "box.z", .kind = Kind::word, .choices = "periodic|wall", .fallback = "wall", .label = "z"},
-    {.path = "box.top", .kind = Kind::word, .choices = "lid|free-slip", .fallback = "lid", .label = "top"},
-    {.path = "box.gravity", .kind = Kind::quantity, .dimension = dimension::acceleration, .range = Range::not_negative, .fallback = "9.81 m/s2", .label = "g"},
-    {.path = "box.slope", .kind = Kind::quantity, .dimension = dimension::angle, .fallback = "0 deg", .label = "slope"},
+    amount("box.length", dimension::length, "L"),
+    amount("box.width", dimension::length, "W"),
+    amount("box.height", dimension::length, "H"),
+    amount("box.cell.xy", dimension::length, "hxy", "2 d"),
+    amount("box.cell.z", dimension::length, "hz", "0.5 d"),
+    word("box.x", "x", "periodic|wall", "periodic"),
+    word("box.y", "y", "periodic|wall", "periodic"),
+    word("box.z", "z", "periodic|wall", "wall"),
+    word("box.top", "top", "lid|free-slip", "lid"),
+    {"box.gravity", Kind::quantity, dimension::acceleration, Range::not_negative, {}, {}, "9.81 m/s2", true, "g"},
+    {"box.slope", Kind::quantity, dimension::angle, Range::any, {}, {}, "0 deg", true, "slope"},
 
-    {.path = "drive.kind", .kind = Kind::word, .choices = "lid|pressure|none", .fallback = "none", .label = "drive"},
-    {.path = "drive.shields.from", .range = Range::positive, .label = "theta"},
-    {.path = "drive.shields.ratio", .range = Range::positive, .label = "ratio"},
-    {.path = "drive.shields.step", .range = Range::positive, .label = "dtheta"},
-    {.path = "drive.shields.steps", .kind = Kind::count, .range = Range::positive, .physics = false},
-    {.path = "drive.speed.from", .kind = Kind::quantity, .dimension = dimension::speed, .label = "U"},
-    {.path = "drive.speed.ratio", .range = Range::positive, .label = "ratio"},
-    {.path = "drive.speed.step", .kind = Kind::quantity, .dimension = dimension::speed, .label = "dU"},
-    {.path = "drive.speed.steps", .kind = Kind::count, .range = Range::positive, .physics = false},
-    {.path = "drive.gradient.from", .kind = Kind::quantity, .dimension = dimension::pressure_gradient, .label = "G"},
-    {.path = "drive.gradient.ratio", .range = Range::positive, .label = "ratio"},
-    {.path = "drive.gradient.step", .kind = Kind::quantity, .dimension = dimension::pressure_gradient, .label = "dG"},
-    {.path = "drive.gradient.steps", .kind = Kind::count, .range = Range::positive, .physics = false},
-    {.path = "drive.dwell", .kind = Kind::quantity, .dimension = dimension::time, .range = Range::positive, .fallback = "25 td", .label = "dwell"},
+    word("drive.kind", "drive", "lid|pressure|none", "none"),
+    number("drive.shields.from", Range::positive, "theta"),
+    number("drive.shields.ratio", Range::positive, "ratio"),
+    number("drive.shields.step", Range::positive, "dtheta"),
+    not_physics(count("drive.shields.steps", "")),
+    signed_amount("drive.speed.from", dimension::speed, "U"),
+    number("drive.speed.ratio", Range::positive, "ratio"),
+    signed_amount("drive.speed.step", dimension::speed, "dU"),
+    not_physics(count("drive.speed.steps", "")),
+    signed_amount("drive.gradient.from", dimension::pressure_gradient, "G"),
+    number("drive.gradient.ratio", Range::positive, "ratio"),
+    signed_amount("drive.gradient.step", dimension::pressure_gradient, "dG"),
+    not_physics(count("drive.gradient.steps", "")),
+    amount("drive.dwell", dimension::time, "dwell", "25 td"),
 
-    {.path = "onset.method", .kind = Kind::word, .choices = "ramp|none", .later = "bisect", .label = "onset"},
-    {.path = "onset.criterion", .kind = Kind::word, .choices = "flux|moving_fraction", .fallback = "flux", .physics = false},
-    {.path = "onset.value", .range = Range::positive, .fallback = "1e-2", .physics = false},
+    word("onset.method", "onset", "ramp|none", {}, "bisect"),
+    not_physics(word("onset.criterion", "", "flux|moving_fraction", "flux")),
+    not_physics(number("onset.value", Range::positive, "", "1e-2")),
 
-    {.path = "models.fluid", .kind = Kind::word, .choices = "auto|box", .later = "profile|column", .fallback = "auto", .label = "fluid"},
-    {.path = "models.drag", .kind = Kind::word, .choices = "stokes|schiller_naumann|di_felice",
-     .later = "oseen|brown_lawler|dallavalle|rong|wen_yu|ergun|gidaspow_ergun_wen_yu|beetstra|tenneti|tang", .fallback = "di_felice", .label = "drag"},
-    {.path = "models.terms", .kind = Kind::words, .choices = "drag|buoyancy|pressure_gradient|viscous_stress", .later = later_terms, .fallback = "auto", .label = "terms"},
+    word("models.fluid", "fluid", "auto|box", "auto", "profile|column"),
+    word("models.drag", "drag", "stokes|schiller_naumann|di_felice", "di_felice", later_laws),
+    {"models.terms", Kind::words, dimension::number, Range::any, terms, later_terms, "auto", true, "terms"},
 
-    {.path = "steps.dem", .kind = Kind::quantity, .dimension = dimension::time, .range = Range::positive, .choices = "auto", .fallback = "auto", .label = "dt"},
-    {.path = "steps.fluid", .kind = Kind::quantity, .dimension = dimension::time, .range = Range::positive, .choices = "auto", .fallback = "auto", .label = "T"},
+    amount("steps.dem", dimension::time, "dt", "auto", "auto"),
+    amount("steps.fluid", dimension::time, "T", "auto", "auto"),
 
-    {.path = "record.every", .kind = Kind::quantity, .dimension = dimension::time, .range = Range::positive, .fallback = "1 td", .label = "every"},
+    amount("record.every", dimension::time, "every", "1 td"),
     {.path = "record.tracks", .kind = Kind::ids, .label = "tracks"},
 
-    {.path = "run.executor", .kind = Kind::word, .choices = "process", .later = "slurm", .fallback = "process", .physics = false},
-    {.path = "run.ranks", .kind = Kind::count, .range = Range::positive, .fallback = "1", .physics = false},
-    {.path = "run.cores", .kind = Kind::count, .range = Range::positive, .choices = "all", .fallback = "all", .physics = false},
-    {.path = "run.checkpoint.every", .kind = Kind::quantity, .dimension = dimension::time, .range = Range::positive, .fallback = "5 min", .physics = false},
-    {.path = "run.checkpoint.keep", .kind = Kind::count, .range = Range::positive, .fallback = "2", .physics = false},
-    {.path = "run.stall_limit", .kind = Kind::quantity, .dimension = dimension::time, .range = Range::positive, .fallback = "10 min", .physics = false},
+    not_physics(word("run.executor", "", "process", "process", "slurm")),
+    not_physics(count("run.ranks", "", "1")),
+    not_physics(count("run.cores", "", "all", "all")),
+    not_physics(amount("run.checkpoint.every", dimension::time, "", "5 min")),
+    not_physics(count("run.checkpoint.keep", "", "2")),
+    not_physics(amount("run.stall_limit", dimension::time, "", "10 min")),
 };
-// clang-format on
 
 struct LaterKey {
   std::string_view path, what;
@@ -142,7 +171,7 @@ std::vector<std::string_view> split(std::string_view words) {
   return parts;
 }
 
-}  // namespace
+}   // namespace
 
 std::span<const StudyKey> study_keys() { return keys; }
 
@@ -154,8 +183,10 @@ const StudyKey* find_key(std::string_view path) {
 std::optional<Setting> fallback_of(const StudyKey& key) {
   const std::string text(key.fallback);
   if (text.empty()) return std::nullopt;
-  if (key.kind == Kind::number || (key.kind == Kind::count && !is_one_of(text, key.choices))) return Setting{std::stod(text), text, {}};
-  if (key.kind == Kind::quantity && !is_one_of(text, key.choices)) return Setting{parse_quantity(text, key.dimension), text, {}};
+  if (key.kind == Kind::number || (key.kind == Kind::count && !is_one_of(text, key.choices)))
+    return Setting{std::stod(text), text, {}};
+  if (key.kind == Kind::quantity && !is_one_of(text, key.choices))
+    return Setting{parse_quantity(text, key.dimension), text, {}};
   return Setting{text, text, {}};
 }
 
@@ -191,4 +222,4 @@ bool is_one_of(std::string_view word, std::string_view choices) {
   return std::ranges::find(words, word) != words.end();
 }
 
-}  // namespace bedload
+}   // namespace bedload

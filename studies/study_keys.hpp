@@ -14,15 +14,15 @@ struct StudyKey {
   enum class Kind { text, word, number, count, quantity, words, ids };
   enum class Range { any, positive, not_negative };
 
-  std::string_view path;                  // dotted
+  std::string_view path;   // dotted
   Kind kind = Kind::number;
   Dimension dimension = dimension::number;   // of a quantity
   Range range = Range::any;
-  std::string_view choices = {};          // of a word: "lid|pressure|none"; or a word that may stand for a number: "auto"
-  std::string_view later = {};            // words that a later version will know
-  std::string_view fallback = {};         // stands for a key that is left out; empty: none
-  bool physics = true;                    // part of a case's identity, hence may vary within a study
-  std::string_view label = {};            // its letter in labels of cases
+  std::string_view choices = {};    // of a word: "lid|pressure|none"; or a word that may stand for a number: "auto"
+  std::string_view later = {};      // words that a later version will know
+  std::string_view fallback = {};   // stands for a key that is left out; empty: none
+  bool physics = true;              // part of a case's identity, hence may vary within a study
+  std::string_view label = {};      // its letter in labels of cases
 };
 
 /// All keys, in the order in which they are written.
@@ -44,4 +44,4 @@ std::string_view nearest_word(std::string_view word, std::string_view choices);
 /// True if `word` is one of the words parted by '|'.
 bool is_one_of(std::string_view word, std::string_view choices);
 
-}  // namespace bedload
+}   // namespace bedload

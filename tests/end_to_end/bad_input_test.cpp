@@ -38,25 +38,55 @@ class BadInput : public testing::Test {
 };
 
 TEST_F(BadInput, UnknownKey) {
-  expect_refused(with(tiny_study, "viscosity", "viskosity"), 65, "tiny.toml:6:1: error: fluid.viskosity is not a key of a study file\nhint: did you mean fluid.viscosity?");
+  expect_refused(
+      with(tiny_study, "viscosity", "viskosity"), 65,
+      "tiny.toml:6:1: error: fluid.viskosity is not a key of a study file\nhint: did you mean fluid.viscosity?");
 }
-TEST_F(BadInput, MissingUnit) { expect_refused(with(tiny_study, "\"1.0e-5 m2/s\"", "\"1.0e-5\""), 65, "tiny.toml:6:13: error: fluid.viscosity: \"1.0e-5\" has no unit"); }
-TEST_F(BadInput, WrongDimension) { expect_refused(with(tiny_study, "\"0.5 mm\"", "\"0.5 ms\""), 65, "tiny.toml:9:13: error: grains.diameter[1]: \"0.5 ms\" is a time, not a length"); }
-TEST_F(BadInput, ZeroDiameter) { expect_refused(with(tiny_study, "\"0.5 mm\"", "\"0 mm\""), 65, "tiny.toml:9:13: error: grains.diameter[1]: '0 mm' must be greater than zero"); }
-TEST_F(BadInput, NegativeDiameter) { expect_refused(with(tiny_study, "\"0.5 mm\"", "\"-1 mm\""), 65, "tiny.toml:9:13: error: grains.diameter[1]"); }
-TEST_F(BadInput, GrainsThatDoNotFitTheBox) { expect_refused(with(tiny_study, "count = 300", "count = 3000"), 65, "do not fit the box"); }
-TEST_F(BadInput, CellLargerThanTheBox) { expect_refused(with(tiny_study, "xy = \"2 d\"", "xy = \"7 d\""), 65, "larger than the box"); }
-TEST_F(BadInput, AxisOnAKeyThatIsNotPhysics) { expect_refused(with(tiny_study, "\"1 s\"", "[\"1 s\", \"2 s\"]"), 65, "run.checkpoint.every: a list is an axis, and this key is not physics"); }
-TEST_F(BadInput, DemStepAboveThreeTenthsOfARayleighTime) { expect_refused(tiny_study + "[steps]\ndem = \"0.1 ms\"\n", 65, "Rayleigh times of the smallest grain"); }
-TEST_F(BadInput, KeyOfALaterVersion) { expect_refused(tiny_study + "[onset]\nmethod = \"bisect\"\n", 65, "onset.method: \"bisect\" is not in this version"); }
+TEST_F(BadInput, MissingUnit) {
+  expect_refused(with(tiny_study, "\"1.0e-5 m2/s\"", "\"1.0e-5\""), 65,
+                 "tiny.toml:6:13: error: fluid.viscosity: \"1.0e-5\" has no unit");
+}
+TEST_F(BadInput, WrongDimension) {
+  expect_refused(with(tiny_study, "\"0.5 mm\"", "\"0.5 ms\""), 65,
+                 "tiny.toml:9:13: error: grains.diameter[1]: \"0.5 ms\" is a time, not a length");
+}
+TEST_F(BadInput, ZeroDiameter) {
+  expect_refused(with(tiny_study, "\"0.5 mm\"", "\"0 mm\""), 65,
+                 "tiny.toml:9:13: error: grains.diameter[1]: '0 mm' must be greater than zero");
+}
+TEST_F(BadInput, NegativeDiameter) {
+  expect_refused(with(tiny_study, "\"0.5 mm\"", "\"-1 mm\""), 65, "tiny.toml:9:13: error: grains.diameter[1]");
+}
+TEST_F(BadInput, GrainsThatDoNotFitTheBox) {
+  expect_refused(with(tiny_study, "count = 300", "count = 3000"), 65, "do not fit the box");
+}
+TEST_F(BadInput, CellLargerThanTheBox) {
+  expect_refused(with(tiny_study, "xy = \"2 d\"", "xy = \"7 d\""), 65, "larger than the box");
+}
+TEST_F(BadInput, AxisOnAKeyThatIsNotPhysics) {
+  expect_refused(with(tiny_study, "\"1 s\"", "[\"1 s\", \"2 s\"]"), 65,
+                 "run.checkpoint.every: a list is an axis, and this key is not physics");
+}
+TEST_F(BadInput, DemStepAboveThreeTenthsOfARayleighTime) {
+  expect_refused(tiny_study + "[steps]\ndem = \"0.1 ms\"\n", 65, "Rayleigh times of the smallest grain");
+}
+TEST_F(BadInput, KeyOfALaterVersion) {
+  expect_refused(tiny_study + "[onset]\nmethod = \"bisect\"\n", 65, "onset.method: \"bisect\" is not in this version");
+}
 
 TEST_F(BadInput, OverlappingGrainsInTheTable) {
-  std::ofstream(here() / "bed.csv") << "x,y,z,diameter,density,fixed\n1e-3,1e-3,1e-3,5e-4,2000,0\n1.3e-3,1e-3,1e-3,5e-4,2000,0\n";
-  expect_refused(with(with(tiny_study, "count = 300", "source = \"file\"\nfile = \"bed.csv\""), "[\"0.5 mm\", \"0.6 mm\"]", "\"0.5 mm\""), 65, "overlap");
+  std::ofstream(here() / "bed.csv")
+      << "x,y,z,diameter,density,fixed\n1e-3,1e-3,1e-3,5e-4,2000,0\n1.3e-3,1e-3,1e-3,5e-4,2000,0\n";
+  expect_refused(with(with(tiny_study, "count = 300", "source = \"file\"\nfile = \"bed.csv\""),
+                      "[\"0.5 mm\", \"0.6 mm\"]", "\"0.5 mm\""),
+                 65, "overlap");
 }
 TEST_F(BadInput, TwoGrainsAtOnePlaceInTheTable) {
-  std::ofstream(here() / "bed.csv") << "x,y,z,diameter,density,fixed\n1e-3,1e-3,1e-3,5e-4,2000,0\n1e-3,1e-3,1e-3,5e-4,2000,0\n";
-  expect_refused(with(with(tiny_study, "count = 300", "source = \"file\"\nfile = \"bed.csv\""), "[\"0.5 mm\", \"0.6 mm\"]", "\"0.5 mm\""), 65, "bed.file: ");
+  std::ofstream(here() / "bed.csv")
+      << "x,y,z,diameter,density,fixed\n1e-3,1e-3,1e-3,5e-4,2000,0\n1e-3,1e-3,1e-3,5e-4,2000,0\n";
+  expect_refused(with(with(tiny_study, "count = 300", "source = \"file\"\nfile = \"bed.csv\""),
+                      "[\"0.5 mm\", \"0.6 mm\"]", "\"0.5 mm\""),
+                 65, "bed.file: ");
 }
 
 TEST_F(BadInput, UnwritableDirectory) {
@@ -69,6 +99,13 @@ TEST_F(BadInput, ResultDirectoryThatIsAFile) {
   std::ofstream(here() / "tiny") << "mine";
   EXPECT_EQ(run(tiny_study).code, 74);
   EXPECT_EQ(contents(here() / "tiny"), "mine");
+}
+
+TEST_F(BadInput, ResultDirectoryThatHoldsSomethingElse) {
+  std::filesystem::create_directory(here() / "tiny");
+  std::ofstream(here() / "tiny" / "thesis.tex") << "mine";
+  EXPECT_EQ(run(tiny_study).code, 65);
+  EXPECT_FALSE(std::filesystem::exists(here() / "tiny" / "lock"));
 }
 
 TEST_F(BadInput, MissingStudy) {
@@ -115,7 +152,8 @@ TEST_F(BadInput, DatabaseOfANewerVersion) {
 TEST_F(BadInput, QueryThatWrites) {
   ASSERT_EQ(run(tiny_study, {"--prepare"}).code, 0);
   EXPECT_EQ(bedload(here(), {"query", "tiny.toml", "DELETE FROM cases"}).code, 2);
-  const auto outcome = bedload(here(), {"query", "tiny.toml", "SELECT count(*) AS n FROM cases WHERE kind = 'case'", "--csv"});
+  const auto outcome =
+      bedload(here(), {"query", "tiny.toml", "SELECT count(*) AS n FROM cases WHERE kind = 'case'", "--csv"});
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.out, "n\n4\n");
 }
@@ -129,5 +167,5 @@ TEST_F(BadInput, StudyWhoseCasesWouldAllBeDropped) {
   EXPECT_EQ(run(changed, {"--prepare", "--replace"}).code, 0);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -44,7 +44,8 @@ class Process {
     int status = 0;
     ::waitpid(pid_, &status, 0);
     pid_ = -1;
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contents(directory_ / ".out"), contents(directory_ / ".err")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contents(directory_ / ".out"),
+            contents(directory_ / ".err")};
   }
 
  private:
@@ -67,4 +68,4 @@ inline Outcome bedload(const std::filesystem::path& working_directory, const std
   return Process(working_directory, arguments).wait();
 }
 
-}  // namespace bedload
+}   // namespace bedload

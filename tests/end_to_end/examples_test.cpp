@@ -9,7 +9,8 @@ namespace {
 
 Outcome plan_of(const std::string& name) {
   TemporaryDirectory here;
-  return bedload(here.path(), {"plan", std::string(BEDLOAD_SOURCE_DIR) + "/studies/examples/" + name + ".toml", "--out", here.path() / "out"});
+  return bedload(here.path(), {"plan", std::string(BEDLOAD_SOURCE_DIR) + "/studies/examples/" + name + ".toml", "--out",
+                               here.path() / "out"});
 }
 
 TEST(Examples, QuickstartHasFourCasesThatAreLaminar) {
@@ -24,10 +25,11 @@ TEST(Examples, SeedErosionIsCalledUnphysicalInWater) {
   for (const auto* name : {"seed-erosion", "seed-erosion-fine"}) {
     const auto plan = plan_of(name);
     EXPECT_EQ(plan.code, 0) << plan.err;
-    for (const auto* part : {"this laminar scene is not physical", "theta = 0.2 means a lid speed of 39.1 m/s", "gap Reynolds number of 3.9e+05"})
+    for (const auto* part : {"this laminar scene is not physical", "theta = 0.2 means a lid speed of 39.1 m/s",
+                             "gap Reynolds number of 3.9e+05"})
       EXPECT_NE(plan.out.find(part), std::string::npos) << part << "\n" << plan.out;
   }
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -23,19 +23,22 @@ std::vector<fs::path> directories_of(const fs::path& study) {
   std::vector<fs::path> found;
   for (const auto* kind : {"beds", "cases"})
     if (fs::exists(study / kind))
-      for (const auto& entry : fs::directory_iterator(study / kind)) found.push_back(fs::path(kind) / entry.path().filename());
+      for (const auto& entry : fs::directory_iterator(study / kind))
+        found.push_back(fs::path(kind) / entry.path().filename());
   return found;
 }
 
 void kill_workers(const fs::path& study) {
   for (const auto& directory : directories_of(study))
-    if (const auto holder = FileLock::holder(study / directory / "lock")) ::kill(static_cast<pid_t>(holder->pid), SIGKILL);
+    if (const auto holder = FileLock::holder(study / directory / "lock"))
+      ::kill(static_cast<pid_t>(holder->pid), SIGKILL);
 }
 
 /// Digest of the final state of every bed and case.
 std::map<std::string, std::string> digests(const fs::path& here) {
   std::map<std::string, std::string> found;
-  for (const auto& directory : directories_of(here / "tiny")) found[directory] = bedload(here, {"inspect", "tiny" / directory, "--digest"}).out;
+  for (const auto& directory : directories_of(here / "tiny"))
+    found[directory] = bedload(here, {"inspect", "tiny" / directory, "--digest"}).out;
   return found;
 }
 
@@ -69,5 +72,5 @@ TEST(KillAndResume, GivesTheSameBitsAsAnUndisturbedRun) {
   EXPECT_EQ(expected, got) << "seed " << seed;
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -13,11 +13,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// One case that takes a second.
-const std::string small_study = with(with(with(with(with(with(tiny_study, "[\"0.5 mm\", \"0.6 mm\"]", "\"0.5 mm\""), "[\"2000 kg/m3\", \"3000 kg/m3\"]", "[\"3000 kg/m3\"]"),
-                                                    "count = 300", "count = 100"),
-                                               "length = \"10 d\"", "length = \"6 d\""),
-                                          "shields = { from = 0.1, ratio = 1.5, steps = 4 }", "shields = { from = 0.01, ratio = 1.1, steps = 2 }"),
-                                     "dwell = \"5 td\"", "dwell = \"1 td\"");
+const std::string small_study =
+    with(with(with(with(with(with(tiny_study, "[\"0.5 mm\", \"0.6 mm\"]", "\"0.5 mm\""),
+                             "[\"2000 kg/m3\", \"3000 kg/m3\"]", "[\"3000 kg/m3\"]"),
+                        "count = 300", "count = 100"),
+                   "length = \"10 d\"", "length = \"6 d\""),
+              "shields = { from = 0.1, ratio = 1.5, steps = 4 }", "shields = { from = 0.01, ratio = 1.1, steps = 2 }"),
+         "dwell = \"5 td\"", "dwell = \"1 td\"");
 
 class StudyLife : public testing::Test {
  protected:
@@ -31,7 +33,9 @@ class StudyLife : public testing::Test {
     while (fs::exists(here() / "tiny" / "by-label" / label / ("attempt." + std::to_string(n + 1) + ".json"))) ++n;
     return n;
   }
-  std::string digest(const std::string& label) const { return bedload(here(), {"inspect", "tiny/by-label/" + label, "--digest"}).out; }
+  std::string digest(const std::string& label) const {
+    return bedload(here(), {"inspect", "tiny/by-label/" + label, "--digest"}).out;
+  }
   std::string csv() const { return bedload(here(), {"curve", "tiny.toml", "--csv"}).out; }
   const fs::path& here() const { return directory_.path(); }
 
@@ -58,9 +62,7 @@ TEST_F(StudyLife, RunsNothingWhenFinishedAndOnlyWhatIsNew) {
 
 TEST_F(StudyLife, ContinuesTheFinalCheckpointWhenTheRampGrowsLonger) {
   ASSERT_EQ(run(small_study).code, 0);
-  const auto plan = [&] {
-    return bedload(here(), {"plan", "tiny.toml", "--csv"}).out;
-  };
+  const auto plan = [&] { return bedload(here(), {"plan", "tiny.toml", "--csv"}).out; };
   const auto longer = with(small_study, "steps = 2", "steps = 4");
   std::ofstream(here() / "tiny.toml") << longer;
   EXPECT_NE(plan().find("extended"), std::string::npos) << plan();
@@ -118,6 +120,20 @@ TEST_F(StudyLife, StopsAtCtrlCWithACheckpointAndGoesOnToTheSameBits) {
   EXPECT_EQ(digest("rho3000-s1"), resumed);
 }
 
+TEST_F(StudyLife, AdoptsWorkersThatOutlivedAKilledScheduler) {
+  const auto slow = with(small_study, "dwell = \"1 td\"", "dwell = \"30 td\"");
+  std::ofstream(here() / "tiny.toml") << slow;
+  {
+    Process killed(here(), {"run", "tiny.toml", "--cores", "2"});
+    const auto heartbeat = here() / "tiny" / "by-label" / "rho3000-s1" / "status.json";
+    for (int n = 0; n < 1000 && !fs::exists(heartbeat); ++n) ::usleep(10'000);
+  }   // SIGKILL
+  const auto second = run(slow);
+  EXPECT_EQ(second.code, 0) << second.err;
+  EXPECT_NE(second.err.find("rho3000-s1: at work already, pid "), std::string::npos) << second.err;
+  EXPECT_EQ(attempts("rho3000-s1"), 1);
+}
+
 TEST_F(StudyLife, RunsAPreparedCaseByHand) {
   ASSERT_EQ(run(with(small_study, "count = 100", "source = \"none\""), {"--prepare"}).code, 0);
   const auto label = "tiny/by-label/rho3000";
@@ -150,9 +166,11 @@ TEST_F(StudyLife, ExplainsACase) {
 
 TEST_F(StudyLife, WritesAReport) {
   ASSERT_EQ(run(small_study).code, 0);
-  EXPECT_EQ(bedload(here(), {"report", "tiny.toml"}).code, 0);
+  EXPECT_NE(contents(here() / "tiny" / "report.html").find("<svg"), std::string::npos);
+  fs::remove(here() / "tiny" / "report.html");
+  EXPECT_EQ(bedload(here(), {"report", "tiny.toml"}).out, "tiny/report.html\n");
   EXPECT_NE(contents(here() / "tiny" / "report.html").find("<svg"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -38,4 +38,4 @@ inline std::string with(std::string text, const std::string& part, const std::st
   return text.replace(text.find(part), part.size(), instead);
 }
 
-}  // namespace bedload
+}   // namespace bedload

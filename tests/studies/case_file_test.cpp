@@ -38,22 +38,26 @@ TEST(CaseFile, ReadsBackToTheSameBed) {
 }
 
 TEST(CaseFile, KeepsEveryKindOfSetting) {
-  const auto text = with(with(good_study, "shields = { from = 0.06, ratio = 1.2, steps = 12 }", "gradient = { from = \"3 Pa/m\", step = \"0.7 Pa/m\", steps = 5 }"),
+  const auto text = with(with(good_study, "shields = { from = 0.06, ratio = 1.2, steps = 12 }",
+                              "gradient = { from = \"3 Pa/m\", step = \"0.7 Pa/m\", steps = 5 }"),
                          "kind = \"lid\"", "kind = \"pressure\"") +
-                    "\n[models]\nterms = [\"drag\", \"buoyancy\"]\ndrag = \"stokes\"\n[onset]\nmethod = \"none\"\n[record]\ntracks = [0, 7]\n";
+                    "\n[models]\nterms = [\"drag\", \"buoyancy\"]\ndrag = \"stokes\"\n[onset]\nmethod = "
+                    "\"none\"\n[record]\ntracks = [0, 7]\n";
   const auto sloped = with(text, "[drive]", "top = \"free-slip\"\nslope = \"2 deg\"\n[drive]");
   for (const auto& one : unfold(parse_study(sloped, "study.toml"))) expect_same_after_writing(one.inputs);
 }
 
 TEST(CaseFile, CarriesATableOfGrains) {
   TemporaryDirectory directory;
-  std::ofstream(directory.path() / "two.csv") << "x,y,z,diameter,density,fixed\n1e-3,1e-3,1e-3,5e-4,2000,1\n2e-3,1e-3,2e-3,5e-4,2000,0\n";
-  const auto text = with(with(good_study, "count = 300\nseed = { count = 2 }", "source = \"file\"\nfile = \"two.csv\""), "[\"0.5 mm\", \"0.6 mm\"]", "\"0.5 mm\"");
+  std::ofstream(directory.path() / "two.csv")
+      << "x,y,z,diameter,density,fixed\n1e-3,1e-3,1e-3,5e-4,2000,1\n2e-3,1e-3,2e-3,5e-4,2000,0\n";
+  const auto text = with(with(good_study, "count = 300\nseed = { count = 2 }", "source = \"file\"\nfile = \"two.csv\""),
+                         "[\"0.5 mm\", \"0.6 mm\"]", "\"0.5 mm\"");
   const auto cases = unfold(parse_study(text, (directory.path() / "study.toml").string()));
   ASSERT_EQ(cases.size(), 2u);
   EXPECT_TRUE(cases[0].bed_id.empty());
   expect_same_after_writing(cases[0].inputs);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -30,12 +30,14 @@ TEST(StudyFile, SuggestsTheNearestKey) {
 }
 
 TEST(StudyFile, SuggestsTheNearestWord) {
-  EXPECT_TRUE(says(complaint(with(good_study, "\"lid\"", "\"lidd\"")), "did you mean \"lid\"? It is one of lid, pressure, none"));
+  EXPECT_TRUE(says(complaint(with(good_study, "\"lid\"", "\"lidd\"")),
+                   "did you mean \"lid\"? It is one of lid, pressure, none"));
 }
 
 TEST(StudyFile, ReportsAllProblemsAtOnceInOrderOfPlace) {
   const auto said = complaint(with(with(good_study, "\"25 td\"", "25"), "\"1000 kg/m3\"", "\"1000 kg\""));
-  const auto density = said.find("study.toml:5:11: error: fluid.density"), dwell = said.find("study.toml:25:9: error: drive.dwell");
+  const auto density = said.find("study.toml:5:11: error: fluid.density"),
+             dwell = said.find("study.toml:25:9: error: drive.dwell");
   ASSERT_NE(density, std::string::npos) << said;
   ASSERT_NE(dwell, std::string::npos) << said;
   EXPECT_LT(density, dwell);
@@ -52,42 +54,49 @@ class Refused : public testing::TestWithParam<Refusal> {};
 TEST_P(Refused, WithTheReason) {
   EXPECT_TRUE(says(complaint(with(good_study, GetParam().part, GetParam().instead)), GetParam().message));
 }
-INSTANTIATE_TEST_SUITE_P(StudyFile, Refused, testing::Values(
-    Refusal{"format = 1", "format = 2", "not a format that this bedload reads"},
-    Refusal{"\"1.0e-5 m2/s\"", "1.0e-5", "fluid.viscosity: \"1e-05\" has no unit"},
-    Refusal{"\"1.0e-5 m2/s\"", "\"1.0e-5 m/s\"", "is a speed, not a kinematic viscosity"},
-    Refusal{"\"0.5 mm\"", "\"0 mm\"", "grains.diameter[1]: '0 mm' must be greater than zero"},
-    Refusal{"\"0.5 mm\"", "\"-0.5 mm\"", "must be greater than zero"},
-    Refusal{"\"0.5 mm\"", "\"0.6 mm\"", "stands twice"},
-    Refusal{"[\"0.5 mm\", \"0.6 mm\"]", "\"2 d\"", "counts grain diameters, which are not known here"},
-    Refusal{"steps = 12", "steps = [12, 14]", "not physics"},
-    Refusal{"dwell =", "[onset]\ncriterion = [\"flux\", \"moving_fraction\"]\n[drive.x]\ndwell =", "onset.criterion: a list is an axis, and this key is not physics"},
-    Refusal{"[drive]", "[onset]\nmethod = \"bisect\"\n[drive]", "onset.method: \"bisect\" is not in this version"},
-    Refusal{"[drive]", "[run]\nexecutor = \"slurm\"\n[drive]", "run.executor: \"slurm\" is not in this version"},
-    Refusal{"[drive]", "[run]\nranks = 2\n[drive]", "run.ranks: 2 ranks per case are not in this version"},
-    Refusal{"[drive]", "[models]\nfluid = \"column\"\n[drive]", "models.fluid: \"column\" is not in this version"},
-    Refusal{"[drive]", "[models]\nterms = [\"drag\", \"viscous_torque\"]\n[drive]", "models.terms[2]: \"viscous_torque\" is not in this version"},
-    Refusal{"[drive]", "[models]\nterms = [\"drag\", \"viscous_stress\"]\n[drive]", "both or neither"},
-    Refusal{"[drive]", "[models]\ndrag = \"beetstra\"\n[drive]", "models.drag: \"beetstra\" is not in this version"},
-    Refusal{"[drive]", "[models]\naccuracy = { target = \"5 %\" }\n[drive]", "models.accuracy"},
-    Refusal{"spread = 0.05", "rolling_friction = 0.1", "rolling friction, which is not in this version"},
-    Refusal{"[drive]", "[steps]\ndem = \"1 ms\"\n[drive]", "Rayleigh times of the smallest grain"},
-    Refusal{"height = \"13 d\"", "height = \"3 d\"", "do not fit the box"},
-    Refusal{"width = \"6 d\"", "width = \"6 d\"\ncell = { xy = \"8 d\" }", "larger than the box"},
-    Refusal{"width = \"6 d\"", "width = \"6 d\"\nz = \"periodic\"", "a periodic z has none"},
-    Refusal{"count = 300", "count = 300\ndepth = \"4 d\"", "both count and depth"},
-    Refusal{"count = 300", "count = 2.5", "is not a whole number"},
-    Refusal{"kind = \"lid\"", "kind = \"pressure\"\nspeed = \"1 m/s\"", "wants one of drive.shields and drive.gradient"},
-    Refusal{"ratio = 1.2, ", "", "how the levels grow is missing"},
-    Refusal{"\"2000 kg/m3\"", "\"900 kg/m3\"", "only grains that settle in the fluid have"},
-    Refusal{"name = \"screening\"", "name = \"a/b\"", "cannot be the name of a directory"},
-    Refusal{"name = \"screening\"", "bed_only = true", "bed_only is not a key"}));
+INSTANTIATE_TEST_SUITE_P(
+    StudyFile, Refused,
+    testing::Values(
+        Refusal{"format = 1", "format = 2", "not a format that this bedload reads"},
+        Refusal{"\"1.0e-5 m2/s\"", "1.0e-5", "fluid.viscosity: \"1e-05\" has no unit"},
+        Refusal{"\"1.0e-5 m2/s\"", "\"1.0e-5 m/s\"", "is a speed, not a kinematic viscosity"},
+        Refusal{"\"0.5 mm\"", "\"0 mm\"", "grains.diameter[1]: '0 mm' must be greater than zero"},
+        Refusal{"\"0.5 mm\"", "\"-0.5 mm\"", "must be greater than zero"},
+        Refusal{"\"0.5 mm\"", "\"0.6 mm\"", "stands twice"},
+        Refusal{"[\"0.5 mm\", \"0.6 mm\"]", "\"2 d\"", "counts grain diameters, which are not known here"},
+        Refusal{"steps = 12", "steps = [12, 14]", "not physics"},
+        Refusal{"dwell =", "[onset]\ncriterion = [\"flux\", \"moving_fraction\"]\n[drive.x]\ndwell =",
+                "onset.criterion: a list is an axis, and this key is not physics"},
+        Refusal{"[drive]", "[onset]\nmethod = \"bisect\"\n[drive]", "onset.method: \"bisect\" is not in this version"},
+        Refusal{"[drive]", "[run]\nexecutor = \"slurm\"\n[drive]", "run.executor: \"slurm\" is not in this version"},
+        Refusal{"[drive]", "[run]\nranks = 2\n[drive]", "run.ranks: 2 ranks per case are not in this version"},
+        Refusal{"[drive]", "[models]\nfluid = \"column\"\n[drive]", "models.fluid: \"column\" is not in this version"},
+        Refusal{"[drive]", "[models]\nterms = [\"drag\", \"viscous_torque\"]\n[drive]",
+                "models.terms[2]: \"viscous_torque\" is not in this version"},
+        Refusal{"[drive]", "[models]\nterms = [\"drag\", \"viscous_stress\"]\n[drive]", "both or neither"},
+        Refusal{"[drive]", "[models]\ndrag = \"beetstra\"\n[drive]",
+                "models.drag: \"beetstra\" is not in this version"},
+        Refusal{"[drive]", "[models]\naccuracy = { target = \"5 %\" }\n[drive]", "models.accuracy"},
+        Refusal{"spread = 0.05", "rolling_friction = 0.1", "rolling friction, which is not in this version"},
+        Refusal{"[drive]", "[steps]\ndem = \"1 ms\"\n[drive]", "Rayleigh times of the smallest grain"},
+        Refusal{"height = \"13 d\"", "height = \"3 d\"", "do not fit the box"},
+        Refusal{"width = \"6 d\"", "width = \"6 d\"\ncell = { xy = \"8 d\" }", "larger than the box"},
+        Refusal{"width = \"6 d\"", "width = \"6 d\"\nz = \"periodic\"", "a periodic z has none"},
+        Refusal{"count = 300", "count = 300\ndepth = \"4 d\"", "both count and depth"},
+        Refusal{"count = 300", "count = 2.5", "is not a whole number"},
+        Refusal{"kind = \"lid\"", "kind = \"pressure\"\nspeed = \"1 m/s\"",
+                "wants one of drive.shields and drive.gradient"},
+        Refusal{"ratio = 1.2, ", "", "how the levels grow is missing"},
+        Refusal{"\"2000 kg/m3\"", "\"900 kg/m3\"", "only grains that settle in the fluid have"},
+        Refusal{"name = \"screening\"", "name = \"a/b\"", "cannot be the name of a directory"},
+        Refusal{"name = \"screening\"", "bed_only = true", "bed_only is not a key"}));
 
 TEST(StudyFile, TakesAListOfListsAsTheAxisOfTerms) {
-  const auto study = parse_study(with(good_study, "[drive]", "[models]\nterms = [[\"drag\", \"buoyancy\"], [\"drag\"]]\n[drive]"), "study.toml");
+  const auto study = parse_study(
+      with(good_study, "[drive]", "[models]\nterms = [[\"drag\", \"buoyancy\"], [\"drag\"]]\n[drive]"), "study.toml");
   ASSERT_EQ(study.axes.size(), 4u);
   EXPECT_EQ(study.axes[3].key, "models.terms");
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

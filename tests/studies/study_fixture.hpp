@@ -57,4 +57,4 @@ inline testing::AssertionResult says(const std::string& text, const std::string&
   return testing::AssertionFailure() << "\"" << part << "\" is not in: " << text;
 }
 
-}  // namespace bedload
+}   // namespace bedload

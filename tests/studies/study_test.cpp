@@ -34,13 +34,15 @@ TEST(Study, UnfoldsTheProductOfItsAxes) {
 }
 
 TEST(Study, LeavesOutWhatIsExcluded) {
-  const auto cases = cases_of(good_study + "\n[[exclude]]\ngrains.diameter = \"600 um\"\ngrains.density = \"3000 kg/m3\"\n");
+  const auto cases =
+      cases_of(good_study + "\n[[exclude]]\ngrains.diameter = \"600 um\"\ngrains.density = \"3000 kg/m3\"\n");
   EXPECT_EQ(cases.size(), 6u);
   for (const auto& one : cases) EXPECT_NE(one.set_label, "d0.6mm-rho3000");
 }
 
 TEST(Study, RefusesAnExclusionThatNamesNoAxis) {
-  EXPECT_NE(complaint(good_study + "\n[[exclude]]\ngrains.spread = 0.05\n").find("grains.spread does not vary"), std::string::npos);
+  EXPECT_NE(complaint(good_study + "\n[[exclude]]\ngrains.spread = 0.05\n").find("grains.spread does not vary"),
+            std::string::npos);
 }
 
 TEST(Study, MeasuresInGrainsOfEachCase) {
@@ -51,7 +53,8 @@ TEST(Study, MeasuresInGrainsOfEachCase) {
 }
 
 TEST(Study, KeepsIdsWhenOnlyTheOnsetCriterionChanges) {
-  EXPECT_EQ(ids_of(good_study), ids_of(with(good_study, "[drive]", "[onset]\ncriterion = \"moving_fraction\"\nvalue = 0.02\n[drive]")));
+  EXPECT_EQ(ids_of(good_study),
+            ids_of(with(good_study, "[drive]", "[onset]\ncriterion = \"moving_fraction\"\nvalue = 0.02\n[drive]")));
 }
 
 TEST(Study, KeepsIdsWhenTheRampGrowsLonger) {
@@ -66,9 +69,10 @@ TEST(Study, KeepsIdsWhenOnlyTheWayOfRunningOrTheUnitsChange) {
 
 TEST(Study, RenamesCasesWhosePhysicsChanges) {
   const auto ids = ids_of(good_study);
-  for (const auto& changed : {with(good_study, "spread = 0.05", "spread = 0.06"), with(good_study, "from = 0.06", "from = 0.07"),
-                              with(good_study, "ratio = 1.2", "ratio = 1.3"), with(good_study, "\"25 td\"", "\"30 td\""),
-                              with(good_study, "[drive]", "[models]\nterms = [\"drag\", \"buoyancy\"]\n[drive]")}) {
+  for (const auto& changed :
+       {with(good_study, "spread = 0.05", "spread = 0.06"), with(good_study, "from = 0.06", "from = 0.07"),
+        with(good_study, "ratio = 1.2", "ratio = 1.3"), with(good_study, "\"25 td\"", "\"30 td\""),
+        with(good_study, "[drive]", "[models]\nterms = [\"drag\", \"buoyancy\"]\n[drive]")}) {
     for (const auto& id : ids_of(changed)) EXPECT_FALSE(ids.contains(id));
   }
 }
@@ -89,10 +93,11 @@ TEST(Study, ChoosesADemStepOfAFifthOfTheSmallestGrainsRayleighTime) {
   const auto cases = cases_of(good_study);
   const auto& bed = cases[0].scene.bed;
   const double d = bed.grains.diameter * 0.9, shear_modulus = bed.grains.young_modulus / (2 * 1.3);
-  const double rayleigh = 3.14159265358979 * d / 2 * std::sqrt(bed.grains.density / shear_modulus) / (0.1631 * 0.3 + 0.8766);
+  const double rayleigh =
+      3.14159265358979 * d / 2 * std::sqrt(bed.grains.density / shear_modulus) / (0.1631 * 0.3 + 0.8766);
   EXPECT_NEAR(bed.dem_step / rayleigh, 0.2, 2e-4);
   EXPECT_DOUBLE_EQ(cases[0].scene.steps.fluid_interval, 10 * bed.dem_step);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload
