@@ -30,8 +30,8 @@ std::vector<CaseEntry> known_cases(const fs::path& results) {
 }
 
 Rows case_rows(const Plan& plan) {
-  Rows rows{{"case", "label", "plan", "grains", "cells", "E [Pa]", "DEM step [s]", "fluid step [s]", "td [s]", "Ga",
-             "core-hours, at most"},
+  Rows rows{{"case", "label", "plan", "grains", "cells", "young_modulus_pa", "dem_step_s", "fluid_step_s",
+             "grain_time_s", "galileo", "core_hours_at_most"},
             {}};
   for (const auto& c : plan.cases) {
     const auto& scene = c.one.scene;

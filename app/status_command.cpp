@@ -55,8 +55,8 @@ std::string state_in_words(const Standing& s) {
 }
 
 Rows case_rows(const std::vector<Standing>& all) {
-  Rows rows{{"case", "state", "hold", "theta", "done [%]", "steps/s", "worker", "core-hours left, at most", "message"},
-            {}};
+  Rows rows{
+      {"case", "state", "hold", "theta", "percent", "steps_per_s", "worker", "core_hours_left_at_most", "message"}, {}};
   for (const auto& s : all) {
     if (s.entry->is_bed && s.entry->state == CaseState::done) continue;
     const bool ramp = s.beat && s.beat->phase == "ramp" && s.entry->state != CaseState::done;
@@ -80,7 +80,7 @@ std::string summary_of(const std::vector<Standing>& all, const StudyPlace& place
     left += s.core_hours_left;
     workers += s.worker.has_value();
   }
-  std::string text = fmt::format("{}: {} cases:", place.name, cases);
+  std::string text = fmt::format("{}: {} case{}:", place.name, cases, cases == 1 ? "" : "s");
   for (const auto& [state, count] : counts) text += fmt::format(" {} {},", count, state);
   text.back() = ';';
   text += fmt::format(" {:.3g} core-hours spent, at most {:.3g} left", core_hours_spent, left);

@@ -246,8 +246,8 @@ int StudyRun::run() {
   enrol(ledger, plan);
   make_directories(plan);
   if (!request_.prepare) return schedule(ledger);
-  log_note(
-      fmt::format("{} cases are prepared in {}; nothing was started", cases_.size(), (directory_ / "cases").string()));
+  log_note(fmt::format("{} case{} prepared in {}; nothing was started", cases_.size(), cases_.size() == 1 ? "" : "s",
+                       (directory_ / "cases").string()));
   return 0;
 }
 
