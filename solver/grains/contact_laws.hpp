@@ -29,8 +29,9 @@ class HertzMindlin {
   /// asked for although contacts never pull; below `lowest_restitution` it rebounds with that.
   explicit HertzMindlin(const GrainProperties&);
 
-  /// Explicit damping that lets no more than this come back would outrun the DEM step in a dense bed.
+  /// Stronger damping, being explicit, would shake a bed of many contacts at the DEM steps in use instead of calming it.
   static constexpr double lowest_restitution = 0.1;
+  static constexpr double strongest_shear_damping = 0.35;   // alpha of gamma_t = alpha sqrt(S_t m*) [-]
 
   HertzMindlin without_friction() const;
 
@@ -40,8 +41,8 @@ class HertzMindlin {
  private:
   double normal_stiffness_;   // 2 Y* [Pa]
   double shear_ratio_;        // S_t/S_n = 4 G*/Y* [-]
-  double root_shear_ratio_;   // its square root [-]
   double damping_;            // alpha of gamma_n = alpha sqrt(S_n m*) [-]
+  double damping_ratio_;      // gamma_t/gamma_n [-]
   double friction_;           // Coulomb's coefficient [-]
 };
 
@@ -69,8 +70,8 @@ inline ContactForce HertzMindlin::respond(const Overlap& o, Vec3 spring, double 
   const double kept = before < depth ? 2 * before / (before + depth) : 1;       // at most a_before/a, (G6)
   spring = kept * (spring - dot(spring, o.normal) * o.normal) + dt * sliding;   // (G5)
 
-  const double shear = shear_ratio_ * stiffness;                                // S_t
-  Vec3 tangential = shear * spring + (root_shear_ratio_ * damping) * sliding;   // (G7)
+  const double shear = shear_ratio_ * stiffness;                             // S_t
+  Vec3 tangential = shear * spring + (damping_ratio_ * damping) * sliding;   // (G7)
   const double pull = norm(tangential), cap = friction_ * normal_force;
   const double scale = pull > cap ? cap / pull : 1;   // the spring slides with its contact, (G8)
   tangential *= scale;

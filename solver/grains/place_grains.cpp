@@ -68,8 +68,8 @@ Vec3 place_in_layers(const BedScene& scene, const Layers& layers, std::uint64_t 
   const std::uint64_t per_layer = layers.nx * layers.ny, layer = grain / per_layer;
   const std::uint64_t in_layer = std::min(per_layer, scene.source.count - layer * per_layer);
   const std::uint64_t site = grain % per_layer * per_layer / in_layer;
-  return {(static_cast<double>(site / layers.ny) + 0.5) * layers.spacing.x,
-          (static_cast<double>(site % layers.ny) + 0.5) * layers.spacing.y,
+  const std::uint64_t row = site / layers.ny, column = site % layers.ny;
+  return {(static_cast<double>(row) + 0.5) * layers.spacing.x, (static_cast<double>(column) + 0.5) * layers.spacing.y,
           (static_cast<double>(layer) + 0.5) * layers.spacing.z};
 }
 

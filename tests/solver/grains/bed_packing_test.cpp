@@ -130,6 +130,15 @@ TEST(BedPacking, SettlesBetweenRandomLooseAndRandomClosePacking) {
   EXPECT_LT(coordination, 6.5) << "isostatic without";
 }
 
+// Explicit damping that is too strong for the step shakes a bed for ever: the longest step that a study may ask for.
+TEST(BedPacking, SettlesWithoutRestitutionUnderFullFrictionAtTheLongestStep) {
+  for (const double restitution : {0.0, 0.3}) {
+    BedScene scene = bed_scene(250);
+    scene.grains.friction = 1, scene.grains.restitution = restitution, scene.dem_step *= 1.5;
+    EXPECT_TRUE(settle(scene, 800).settled) << restitution;
+  }
+}
+
 TEST(BedPacking, StaysSettledOnceItHasSettled) {
   const BedScene scene = bed_scene(200);
   Bed bed = settle(scene);
