@@ -35,6 +35,8 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 /// Why a run cannot go on after such a step; empty if it can.
 std::string ailment(const StepHealth& health) {
   if (!health.finite) return "a velocity, force or pressure is not finite";
+  if (health.lost_grain)
+    return fmt::format("a grain moved {:.2g} cells in one step, or its centre passed a wall", health.grain_travel);
   if (health.deepest_overlap > hopeless_overlap)
     return fmt::format("grains overlap by {:.2g} of a diameter (at most {} can be healed)", health.deepest_overlap,
                        hopeless_overlap);

@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "wants one of drive.shields and drive.gradient"},
         Refusal{"ratio = 1.2, ", "", "how the levels grow is missing"},
         Refusal{"\"2000 kg/m3\"", "\"900 kg/m3\"", "only grains that settle in the fluid have"},
-        Refusal{"name = \"screening\"", "name = \"a/b\"", "cannot be the name of a directory"},
+        Refusal{"name = \"screening\"", "name = \"a/b\"", "cannot be the name of a result directory"},
         Refusal{"name = \"screening\"", "bed_only = true", "bed_only is not a key"}));
 
 TEST(StudyFile, TakesAListOfListsAsTheAxisOfTerms) {
