@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "scheduler/attempt.hpp"
 #include "tests/end_to_end/bedload_program.hpp"
 #include "tests/end_to_end/tiny_study.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -132,6 +133,20 @@ TEST_F(StudyLife, AdoptsWorkersThatOutlivedAKilledScheduler) {
   EXPECT_EQ(second.code, 0) << second.err;
   EXPECT_NE(second.err.find("rho3000-s1: at work already, pid "), std::string::npos) << second.err;
   EXPECT_EQ(attempts("rho3000-s1"), 1);
+}
+
+TEST_F(StudyLife, TriesAFailedCaseAgainOnlyWhenAsked) {
+  ASSERT_EQ(run(small_study, {"--prepare"}).code, 0);
+  const auto directory = here() / "tiny" / "by-label" / "rho3000-s1";
+  close_attempt(directory, open_attempt(directory), Cause::numerical, "made up");
+  const auto failed = run(small_study);
+  EXPECT_EQ(failed.code, 1) << failed.err;
+  EXPECT_EQ(attempts("rho3000-s1"), 1);
+  EXPECT_NE(bedload(here(), {"explain", "tiny.toml", "rho3000-s1"}).out.find("it failed (numerical: made up)"),
+            std::string::npos);
+  EXPECT_EQ(bedload(here(), {"retry", "tiny.toml"}).code, 0);
+  const auto again = run(small_study);
+  EXPECT_EQ(again.code, 0) << again.err;
 }
 
 TEST_F(StudyLife, RunsAPreparedCaseByHand) {

@@ -86,6 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"count = 300", "count = 2.5", "is not a whole number"},
         Refusal{"kind = \"lid\"", "kind = \"pressure\"\nspeed = \"1 m/s\"",
                 "wants one of drive.shields and drive.gradient"},
+        Refusal{"length = \"10 d\"", "", "study.toml: error: box.length is missing"},
         Refusal{"ratio = 1.2, ", "", "how the levels grow is missing"},
         Refusal{"\"2000 kg/m3\"", "\"900 kg/m3\"", "only grains that settle in the fluid have"},
         Refusal{"name = \"screening\"", "name = \"a/b\"", "cannot be the name of a result directory"},
