@@ -152,6 +152,8 @@ void StudyRun::make_directories(const Plan& plan) {
   }
   for (const auto& c : plan.cases) {
     const auto directory = case_directory(directory_, c.one.id);
+    // A worker that outlived its scheduler ends by the case.toml it read; left as it is, the next run sees the difference.
+    if (FileLock::holder(directory / "lock")) continue;
     write_case_directory(directory, c.one.inputs, c.one.label, study_.run);
     if (c.one.inputs.has("bed.file")) copy_table(c.one.inputs, directory_);
   }
