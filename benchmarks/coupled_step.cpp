@@ -10,9 +10,11 @@ using namespace bedload;
 
 void coupled_step(benchmark::State& bench) {
   const bool large = bench.range(0) == 20000;
-  const double d = 1e-3, edge = 0.5 * d * static_cast<double>(bench.range(1)), length = (large ? 50 : 20) * d, depth = (large ? 20 : 5) * d;
+  const double d = 1e-3, edge = 0.5 * d * static_cast<double>(bench.range(1)), length = (large ? 50 : 20) * d,
+               depth = (large ? 20 : 5) * d;
   const auto cells = [&](double size) { return static_cast<int>(size / edge + 0.5); };
-  Scene scene = test::fluid_scene({cells(length), cells(20 * d), cells(depth + 10 * d)}, {edge, edge, edge}, test::channel, 1e-6);
+  Scene scene =
+      test::fluid_scene({cells(length), cells(20 * d), cells(depth + 10 * d)}, {edge, edge, edge}, test::channel, 1e-6);
   scene.bed.gravity = {0, 0, -9.81};
   test::add_grains(scene, d, 3, 0.05);
   const std::array<int, 3> count = {large ? 50 : 20, 20, large ? 20 : 5};
@@ -37,4 +39,4 @@ void coupled_step(benchmark::State& bench) {
 }
 BENCHMARK(coupled_step)->Args({2000, 10})->Args({20000, 10})->Args({20000, 5})->Unit(benchmark::kMillisecond);
 
-}  // namespace
+}   // namespace

@@ -1,6 +1,8 @@
 #include "solver/coupler.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "solver/coupling/hydrodynamic_forces.hpp"
 #include "solver/coupling/implicit_drag.hpp"
@@ -16,11 +18,23 @@ namespace bedload {
 namespace {
 
 constexpr double largest_cfl = 0.5;
-constexpr double largest_grain_travel = 0.2;       // of a cell edge
-constexpr double largest_relaxation = 200;         // a = beta T/M of any grain
+constexpr double largest_grain_travel = 0.2;   // of a cell edge
+constexpr double largest_relaxation = 200;     // a = beta T/M of any grain
 constexpr double explicit_viscosity_limit = 1.0 / 12;
-constexpr double pressure_tolerance = 1e-4;        // of the divergence the projection starts with; momentum does not depend on it
-constexpr double least_divergence = 1e-9;          // volume change per step that is not worth an iteration
+constexpr double pressure_tolerance =
+    1e-4;   // of the divergence the projection starts with; momentum does not depend on it
+constexpr double least_divergence = 1e-9;   // volume change per step that is not worth an iteration
+
+bool all_finite(const State& state) {
+  bool finite = true;
+  for (int c = 0; c < 3; ++c)
+    for (const double *v = state.fluid.velocity.component(c), *end = v + state.fluid.velocity.x.values.size(); v != end;
+         ++v)
+      finite &= std::isfinite(*v);
+  for (const double q : state.fluid.pressure.values) finite &= std::isfinite(q);
+  for (const Vec3& v : state.grains.velocity) finite &= std::isfinite(norm2(v));
+  return finite;
+}
 
 class Stopwatch {
  public:
@@ -32,27 +46,69 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
+/// Duration of the shortest Hertz collision of two like grains of the bed at `speed`, or at the speed of an overlap of
+/// 0.1 % if that is more: resting contacts are springs too.
+double shortest_contact(const Grains& grains, const GrainProperties& g, double speed) {
+  double shortest = std::numeric_limits<double>::infinity(), diameter = 0, density = 0;
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    if (grains.fixed[p]) continue;
+    const double d = grains.diameter[p], rho = grains.density[p], scale = d * std::pow(rho, 0.4);   // t_c ~ d rho^(2/5)
+    if (scale < shortest) shortest = scale, diameter = d, density = rho;
+  }
+  const double resting =
+      std::sqrt(std::pow(1e-3, 2.5) * g.young_modulus / (0.98 * (1 - g.poisson * g.poisson) * density));
+  return contact_time(diameter, density, g.young_modulus, g.poisson, std::max(speed, resting));
+}
+
+/// max(sqrt(d/(|s - 1| g)), d/U_t) [s]; infinite without weight.
+double time_of_fall(const Scene& scene) {
+  const GrainProperties& g = scene.bed.grains;
+  const double s = g.density / scene.bed.fluid.density, gravity = norm(scene.bed.gravity),
+               reduced = std::abs(s - 1) * gravity;
+  if (!(reduced > 0)) return std::numeric_limits<double>::infinity();
+  return std::max(std::sqrt(g.diameter / reduced),
+                  g.diameter / terminal_speed(scene.drag, scene.bed.fluid.viscosity, s, g.diameter, gravity));
+}
+
 double wrapped(double x, double length) {
   x -= length * std::floor(x / length);
   return x < length ? x : 0;   // rounding of a tiny negative x
 }
 
-}  // namespace
+}   // namespace
 
 struct Coupler::Parts {
   explicit Parts(const Scene& given)
-      : scene(given), grid(given.grid), law(drag_law(given.drag)), dynamics(given.bed), drag(grid), pressure(grid), before(grid), after(grid),
-        acceleration(grid), laplace(grid), impulse(grid), flux(grid), solid_flux(grid), response(grid), rhs(grid), correction(grid), kick(grid) {}
+      : scene(given),
+        grid(given.grid),
+        law(drag_law(given.drag)),
+        fall_time(time_of_fall(given)),
+        dynamics(given.bed),
+        drag(grid),
+        pressure(grid),
+        before(grid),
+        after(grid),
+        acceleration(grid),
+        laplace(grid),
+        impulse(grid),
+        flux(grid),
+        solid_flux(grid),
+        response(grid),
+        rhs(grid),
+        correction(grid),
+        kick(grid) {}
 
   const Scene scene;
   const StaggeredGrid grid;
   const DragLaw law;
+  const double fall_time;
   GrainDynamics dynamics;
   ImplicitDrag drag;
   PressureSolver pressure;
 
   // Scratch; `stencils` and `before` belong to `positions` and are kept when the state still has them.
   std::vector<Vec3> positions;
+  std::vector<double> diameters;
   std::vector<Stencil> stencils;
   VoidFraction before, after;
   FaceFields acceleration, laplace, impulse, flux, solid_flux;
@@ -68,8 +124,11 @@ struct Coupler::Parts {
   StepTimes times;
   StepHealth health;
 
+  bool failed() const { return !health.finite || health.lost_grain; }
   bool model_b() const { return scene.terms.model_b(); }
-  double specific_mass(const Grains& g, std::size_t p) const { return sphere_volume(g.diameter[p]) * g.density[p] / scene.bed.fluid.density; }
+  double specific_mass(const Grains& g, std::size_t p) const {
+    return sphere_volume(g.diameter[p]) * g.density[p] / scene.bed.fluid.density;
+  }
   /// -dp/dx that drives the fluid, and the uniform gradient that holds back the net flux of a z-periodic box [m/s2].
   Vec3 drive(const State& s) const { return {s.search.gradient, 0, s.fluid.column_gradient}; }
 
@@ -77,6 +136,8 @@ struct Coupler::Parts {
   void accelerate_faces(State&);
   void sample_at_grains(State&);
   double choose_step(const State&, double longest);
+  void limit_by_grains(const State&, double& step);
+  void shorten(double& step, double limit, StepLimit by);
   void solve_drag(State&, double dt);
   void move_grains(State&, double dt);
   void deposit_at_new_positions(const State&, double dt);
@@ -116,11 +177,12 @@ StepHealth Coupler::step(State& state, double longest) {
 /// Void fraction and stencils of x^n; those of the last step serve when nothing has moved since.
 void Coupler::Parts::place_on_grid(const Grains& grains) {
   Stopwatch watch(times.deposit);
-  if (positions == grains.position) return;
+  if (positions == grains.position && diameters == grains.diameter) return;
   find_stencils(grid, grains, stencils);
   deposit_void_fraction(grid, grains, stencils, before);
   fill_face_ghosts(grid, before.face);
   positions = grains.position;
+  diameters = grains.diameter;
 }
 
 /// a_f = -grad q + nu lap u + G, and the volume flux eps u + J of the start of the step.
@@ -152,43 +214,52 @@ void Coupler::Parts::accelerate_faces(State& state) {
 
 void Coupler::Parts::sample_at_grains(State& state) {
   Stopwatch watch(times.sample);
-  sample_flow(grid, state.grains, stencils, state.fluid.velocity, acceleration, before.centre, law, scene.bed.fluid.viscosity, scene.terms, flow);
+  sample_flow(grid, state.grains, stencils, state.fluid.velocity, acceleration, before.centre, law,
+              scene.bed.fluid.viscosity, scene.terms, flow);
   health.void_clamps = flow.void_clamps;
+}
+
+void Coupler::Parts::shorten(double& step, double limit, StepLimit by) {
+  if (!(limit < step)) return;
+  step = limit;
+  health.limited_by = by;
 }
 
 /// The longest step, in whole DEM steps, that every limit allows (docs/physics_coupling.md, "The fluid step").
 double Coupler::Parts::choose_step(const State& state, double longest) {
-  const FaceFields& u = state.fluid.velocity;
-  double rate = 0;
+  double rate = 0, step = longest;
   for (int c = 0; c < 3; ++c) {
     double fastest = 0;
-    for_each_unknown_face(grid, c, [&, v = u.component(c)](std::size_t n) { fastest = std::max(fastest, std::abs(v[n])); });
+    for_each_unknown_face(grid, c, [&, v = state.fluid.velocity.component(c)](std::size_t n) {
+      fastest = std::max(fastest, std::abs(v[n]));
+    });
     rate += fastest / grid.h[c];
   }
-  double step = std::min(longest, rate > 0 ? largest_cfl / rate : longest);
-
-  double fastest = 0;
-  bool any_mobile = false;
-  for (std::size_t p = 0; p < state.grains.size(); ++p) {
-    if (state.grains.fixed[p]) continue;
-    any_mobile = true;
-    fastest = std::max(fastest, norm(state.grains.velocity[p]));
-    if (flow.drag[p] > 0) step = std::min(step, largest_relaxation * specific_mass(state.grains, p) / flow.drag[p]);
+  if (rate > 0) shorten(step, largest_cfl / rate, StepLimit::cfl);
+  const bool any_mobile =
+      std::find(state.grains.fixed.begin(), state.grains.fixed.end(), 0) != state.grains.fixed.end();
+  if (any_mobile) {
+    limit_by_grains(state, step);
+    health.substeps = std::max(1, static_cast<int>(step / scene.bed.dem_step * (1 + 1e-12)));
+    step = std::min(step, health.substeps * scene.bed.dem_step);
   }
   health.cfl = step * rate;
-  if (!any_mobile) {
-    health.substeps = 0;
-    return health.dt = step;
-  }
-  const GrainProperties& g = scene.bed.grains;
+  return health.dt = step;
+}
+
+/// Travel, relaxation by drag, half the duration of a collision, a tenth of the time in which a grain falls its diameter.
+void Coupler::Parts::limit_by_grains(const State& state, double& step) {
+  const Grains& grains = state.grains;
   const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
-  if (fastest > 0) {
-    step = std::min(step, largest_grain_travel * shortest_edge / fastest);
-    step = std::min(step, 0.5 * contact_time(g.diameter * (1 - 2 * g.spread), g.density, g.young_modulus, g.poisson, fastest));
-  }
-  const double dem = scene.bed.dem_step;
-  health.substeps = std::max(1, static_cast<int>(step / dem * (1 + 1e-12)));
-  return health.dt = std::min(step, health.substeps * dem);
+  double fastest = 0;
+  for (std::size_t p = 0; p < grains.size(); ++p)
+    if (!grains.fixed[p]) fastest = std::max(fastest, norm(grains.velocity[p]));
+  if (fastest > 0) shorten(step, largest_grain_travel * shortest_edge / fastest, StepLimit::travel);
+  for (std::size_t p = 0; p < grains.size(); ++p)
+    if (!grains.fixed[p] && flow.drag[p] > 0)
+      shorten(step, largest_relaxation * specific_mass(grains, p) / flow.drag[p], StepLimit::drag);
+  shorten(step, 0.5 * shortest_contact(grains, scene.bed.grains, fastest), StepLimit::contact);
+  shorten(step, 0.1 * fall_time, StepLimit::weight);
 }
 
 Vec3 Coupler::Parts::weight(double density) const {
@@ -201,7 +272,8 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
   const Grains& grains = state.grains;
   const double rho = scene.bed.fluid.density, nu = scene.bed.fluid.viscosity;
   const std::size_t count = grains.size();
-  exchange.resize(count), relaxation.resize(count), ballistic.resize(count), flow_velocity.resize(count), push.resize(count), drag_force.resize(count);
+  exchange.resize(count), relaxation.resize(count), ballistic.resize(count), flow_velocity.resize(count),
+      push.resize(count), drag_force.resize(count);
   for (std::size_t p = 0; p < count; ++p) {
     exchange[p] = flow.drag[p] * dt / grid.cell_volume();
     relaxation[p] = 0, ballistic[p] = {}, push[p] = {};
@@ -219,8 +291,10 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
   }
   const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
   const bool implicit = nu * dt > explicit_viscosity_limit * shortest_edge * shortest_edge;
-  health.drag_iterations = drag.solve(grid, {stencils, exchange, relaxation, ballistic, flow.velocity, implicit ? nu * dt : 0}, before.face, impulse,
-                                      state.fluid.velocity, flow_velocity);
+  health.drag_iterations =
+      drag.solve(grid, {stencils, exchange, relaxation, ballistic, flow.velocity, implicit ? nu * dt : 0}, before.face,
+                 impulse, state.fluid.velocity, flow_velocity);
+  health.converged = health.drag_iterations < ImplicitDrag::most_iterations;
   Vec3 on_grains;
   for (std::size_t p = 0; p < count; ++p) {
     const Vec3 force = flow.drag[p] / (1 + relaxation[p]) * (flow_velocity[p] - ballistic[p]);   // per rho_f
@@ -242,7 +316,8 @@ void Coupler::Parts::move_grains(State& state, double dt) {
   Grains& grains = state.grains;
   moved.assign(grains.size(), {});
   if (health.substeps == 0) return;
-  const GrainHealth contact = dynamics.advance(grains, state.contacts, push, {}, dt / health.substeps, health.substeps, state.search.lid_speed);
+  const GrainHealth contact =
+      dynamics.advance(grains, state.contacts, push, {}, dt / health.substeps, health.substeps, state.search.lid_speed);
   health.deepest_overlap = contact.deepest_overlap;
   books.contact_on_walls = contact.force_on_walls;
   const Vec3 length = scene.bed.length;
@@ -250,21 +325,24 @@ void Coupler::Parts::move_grains(State& state, double dt) {
     Vec3& x = grains.position[p];
     moved[p] = x - positions[p];
     for (int c = 0; c < 3; ++c) {
+      if (!std::isfinite(x[c])) health.finite = false;
       health.grain_travel = std::max(health.grain_travel, std::abs(moved[p][c]) / grid.h[c]);
       if (grid.periodic(c)) x[c] = wrapped(x[c], length[c]);
-      if (!std::isfinite(x[c])) health.finite = false;
+      if (x[c] < 0 || x[c] > length[c]) health.lost_grain = true;
     }
   }
+  health.lost_grain |= health.grain_travel >= 1;   // more than the charge-conserving deposit can carry
 }
 
 /// The flux that transport needs, then everything that belongs to x^{n+1}.
 void Coupler::Parts::deposit_at_new_positions(const State& state, double dt) {
   Stopwatch watch(times.deposit);
-  if (!health.finite) return;
+  if (failed()) return;
   const Grains& grains = state.grains;
   deposit_swept_flux(grid, grains, positions, moved, dt, solid_flux);
   for (int c = 0; c < 3; ++c)
-    for_each_unknown_face(grid, c, [f = flux.component(c), j = solid_flux.component(c)](std::size_t n) { f[n] -= j[n]; });
+    for_each_unknown_face(grid, c,
+                          [f = flux.component(c), j = solid_flux.component(c)](std::size_t n) { f[n] -= j[n]; });
   fill_face_ghosts(grid, flux);
 
   find_stencils(grid, grains, stencils);
@@ -276,7 +354,7 @@ void Coupler::Parts::deposit_at_new_positions(const State& state, double dt) {
 
 void Coupler::Parts::transport_momentum(State& state, double dt) {
   Stopwatch watch(times.transport);
-  if (!health.finite) return;
+  if (failed()) return;
   fill_velocity_ghosts(grid, state.fluid.velocity, state.search.lid_speed);
   transport(grid, flux, before.face, after.face, dt, state.fluid.velocity, transport_scratch);
   std::swap(before, after);
@@ -286,7 +364,7 @@ void Coupler::Parts::transport_momentum(State& state, double dt) {
 /// Makes div(eps u + J) vanish at the new instant: fluid and mobile grains give way to the pressure together.
 void Coupler::Parts::project(State& state, double dt) {
   Stopwatch watch(times.pressure);
-  if (!health.finite) return;
+  if (failed()) return;
   for (int c = 0; c < 3; ++c) {
     double* f = solid_flux.component(c);
     const double *eps = before.face.component(c), *u = state.fluid.velocity.component(c);
@@ -296,14 +374,16 @@ void Coupler::Parts::project(State& state, double dt) {
   fill_face_ghosts(grid, response.coefficient);
   divergence(grid, solid_flux, rhs);
   std::fill(correction.values.begin(), correction.values.end(), 0.0);
-  const PressureSolve solve = pressure.solve(response.coefficient, rhs, correction, pressure_tolerance, least_divergence / (dt * dt));
+  const PressureSolve solve =
+      pressure.solve(response.coefficient, rhs, correction, pressure_tolerance, least_divergence / (dt * dt));
   health.pressure_iterations = solve.iterations;
+  health.converged &= solve.converged;
   health.divergence = solve.residual;
   gradient(grid, correction, kick);
   hold_back_net_flux(state);
   kick_mixture(state, dt);
   for (std::size_t n = 0; n < correction.values.size(); ++n) state.fluid.pressure[n] += correction[n];
-  for (double x : state.fluid.velocity.x.values) health.finite &= std::isfinite(x);
+  health.finite = all_finite(state);
 }
 
 /// In a box without bottom or top, weight is borne by a uniform gradient: the one that lets no net volume pass.
@@ -323,9 +403,11 @@ void Coupler::Parts::kick_mixture(State& state, double dt) {
   Vec3 on_fixed;
   for (int c = 0; c < 3; ++c) {
     double *k = kick.component(c), *u = state.fluid.velocity.component(c);
-    const double *cf = response.fluid.component(c), *cp = response.grains.component(c), *locked = response.locked_exchange.component(c),
-                 *eps = before.face.component(c), *phi = response.mobile_fraction.component(c);
-    on_fixed[c] = sum_over_faces(grid, c, [&](std::size_t n) { return -k[n] * (locked[n] * cf[n] + (model_b() ? 0 : 1 - eps[n] - phi[n])); });
+    const double *cf = response.fluid.component(c), *cp = response.grains.component(c),
+                 *locked = response.locked_exchange.component(c), *eps = before.face.component(c),
+                 *phi = response.mobile_fraction.component(c);
+    on_fixed[c] = sum_over_faces(
+        grid, c, [&](std::size_t n) { return -k[n] * (locked[n] * cf[n] + (model_b() ? 0 : 1 - eps[n] - phi[n])); });
     for_each_unknown_face(grid, c, [&](std::size_t n) {
       u[n] -= dt * cf[n] * k[n];
       k[n] *= cp[n];
@@ -343,4 +425,4 @@ void Coupler::Parts::kick_mixture(State& state, double dt) {
   }
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -9,25 +9,32 @@
 
 namespace bedload {
 
+/// What decided the length of a step.
+enum class StepLimit { asked, cfl, drag, travel, contact, weight };
+
 /// How well a step went; judged in one place, never thrown.
 struct StepHealth {
-  double dt = 0;                // fluid step [s]
-  int substeps = 0;             // DEM steps in it
+  double dt = 0;      // fluid step [s]
+  int substeps = 0;   // DEM steps in it
+  StepLimit limited_by = StepLimit::asked;
   double cfl = 0;               // of the fluid [-]
   double deepest_overlap = 0;   // of a grain contact, per diameter of the smaller grain [-]
   double grain_travel = 0;      // farthest, per cell edge [-]
-  double divergence = 0;        // left after the projection, times the step [-]
+  double divergence = 0;        // residual of the projection's linear solve, of its right-hand side [-]
   int drag_iterations = 0, pressure_iterations = 0;
   std::uint64_t void_clamps = 0;   // grains whose void fraction was clamped in the drag law
+  bool converged = true;           // of both linear solves
+  bool lost_grain = false;         // one crossed more than a cell in the step, or its centre passed a wall
   bool finite = true;
 };
 
-/// Momentum that changed hands in a step, as mean forces over it [N].
+/// Momentum that changed hands in a step, as mean forces over it [N]. Complete along x and y where those are periodic; what
+/// passes to side walls, and along z, is not booked.
 struct StepBooks {
   Vec3 on_grains;          // hydrodynamic force on all grains, fixed ones too (drag, pressure, viscous stress, kick)
-  Vec3 on_bottom;          // of the fluid on the bottom wall, drag booked to it included
-  Vec3 on_lid;             // of the fluid on the lid
-  Vec3 driving;            // G on the fluid (and on grains, Model A)
+  Vec3 on_bottom;          // viscous stress of the fluid on the bottom wall, x and y
+  Vec3 on_lid;             // the same on the lid
+  Vec3 driving;            // G on the fluid (and on grains, Model A), x and y
   Vec3 contact_on_walls;   // of grains on walls
 };
 
@@ -57,4 +64,4 @@ class Coupler {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

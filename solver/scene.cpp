@@ -72,7 +72,8 @@ void check_grid(const Scene& scene, Found& found) {
                                  grid.cells[c], grid.cells[c] == 1 ? "" : "s", "xyz"[c]),
                      fmt::format("a cell of at most {:.4g} m, or a larger box", scene.bed.length[c] / 3)});
   }
-  const double largest = scene.bed.grains.diameter * (1 + 2 * scene.bed.grains.spread), cube = largest * largest * largest;
+  const double largest = scene.bed.grains.diameter * (1 + 2 * scene.bed.grains.spread),
+               cube = largest * largest * largest;
   if (scene.bed.source.kind == BedSource::Kind::none || grid.cell_volume() >= cube) return;
   found.push_back({"box.cell.xy",
                    fmt::format("a cell holds {:.3g} d^3 of the largest grain; a single grain could then fill the space "

@@ -3,7 +3,7 @@
 
 namespace bedload {
 
-enum class Side { periodic, wall };    // wall = no-slip
-enum class Top { lid, free_slip };     // lid = no-slip plane that moves along x; read only when z is wall
+enum class Side { periodic, wall };   // wall = no-slip
+enum class Top { lid, free_slip };    // lid = no-slip plane that moves along x; read only when z is wall
 
-}  // namespace bedload
+}   // namespace bedload

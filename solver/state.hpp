@@ -33,19 +33,19 @@ struct Window {
 struct Search {
   enum Phase : std::uint64_t { packing = 0, holding = 1, finished = 2 };
   std::uint64_t phase = packing;
-  std::uint64_t hold = 0;              // index of the hold under way
-  std::uint64_t hold_begun = 0;        // 1 once this hold's flow has been imposed
-  double hold_start = 0;               // [s]
-  double bed_height = 0;               // z_b when the hold began [m]
-  double shields = 0;                  // nominal, imposed now [-]
-  double lid_speed = 0;                // imposed now [m/s]
-  double gradient = 0;                 // imposed now [m/s2]
-  double next_sample = 0;              // [s]
-  Window half;                         // the last half of the hold
-  Window sample;                       // since the last sample
-  double blocks = 0;                   // finished parts of the last half [-]
-  double block_events = 0;             // events of the part under way [-]
-  double block_events_squared = 0;     // sum over finished parts, for the standard error [-]
+  std::uint64_t hold = 0;            // index of the hold under way
+  std::uint64_t hold_begun = 0;      // 1 once this hold's flow has been imposed
+  double hold_start = 0;             // [s]
+  double bed_height = 0;             // z_b when the hold began [m]
+  double shields = 0;                // nominal, imposed now [-]
+  double lid_speed = 0;              // imposed now [m/s]
+  double gradient = 0;               // imposed now [m/s2]
+  double next_sample = 0;            // [s]
+  Window half;                       // the last half of the hold
+  Window sample;                     // since the last sample
+  double blocks = 0;                 // finished parts of the last half [-]
+  double block_events = 0;           // events of the part under way [-]
+  double block_events_squared = 0;   // sum over finished parts, for the standard error [-]
   bool operator==(const Search&) const = default;
 };
 
@@ -168,7 +168,8 @@ void State::each_field(Self& s, Visit&& visit) {
   // A new member of State changes one of these sizes: list it above, then here.
   static_assert(sizeof(Clock) == 2 * 8 && sizeof(Window) == 7 * 8 && sizeof(Search) == 12 * 8 + 2 * sizeof(Window));
   static_assert(sizeof(FluidState) == 4 * sizeof(Field<Centre>) + 8);
-  static_assert(sizeof(Grains) == 8 * sizeof(std::vector<Vec3>) && sizeof(ContactHistory) == 3 * sizeof(std::vector<Vec3>));
+  static_assert(sizeof(Grains) == 8 * sizeof(std::vector<Vec3>) &&
+                sizeof(ContactHistory) == 3 * sizeof(std::vector<Vec3>));
   static_assert(sizeof(BedRecord) == (12 + 15 + 5 + 8) * sizeof(std::vector<double>));
 }
 
@@ -178,4 +179,4 @@ std::string state_digest(const State&);
 /// Moves by hand when the same input gives other results; the changelog says why.
 inline constexpr int physics_version = 1;
 
-}  // namespace bedload
+}   // namespace bedload

@@ -35,4 +35,4 @@ double terminal_speed(DragLawName name, double viscosity, double density_ratio, 
   }
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -43,4 +43,4 @@ std::string_view name_of(DragLawName);
 /// viscosity: kinematic [m2/s]; density_ratio s > 1; diameter [m]; gravity [m/s2].
 double terminal_speed(DragLawName, double viscosity, double density_ratio, double diameter, double gravity);
 
-}  // namespace bedload
+}   // namespace bedload

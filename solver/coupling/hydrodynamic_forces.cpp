@@ -20,11 +20,11 @@ void evaluate_drag(const Law& law, const Grains& grains, double viscosity, bool 
   }
 }
 
-}  // namespace
+}   // namespace
 
-void sample_flow(const StaggeredGrid& grid, const Grains& grains, std::span<const Stencil> stencils, FaceFields& velocity,
-                 FaceFields& acceleration, Field<Centre>& void_fraction, const DragLaw& law, double viscosity, const Terms& terms,
-                 FlowAtGrains& flow) {
+void sample_flow(const StaggeredGrid& grid, const Grains& grains, std::span<const Stencil> stencils,
+                 FaceFields& velocity, FaceFields& acceleration, Field<Centre>& void_fraction, const DragLaw& law,
+                 double viscosity, const Terms& terms, FlowAtGrains& flow) {
   const std::size_t n = grains.size();
   flow.velocity.resize(n), flow.acceleration.resize(n), flow.void_fraction.resize(n), flow.drag.assign(n, 0);
   extend_samples(grid, velocity), extend_samples(grid, acceleration), extend_samples(grid, void_fraction);
@@ -38,4 +38,4 @@ void sample_flow(const StaggeredGrid& grid, const Grains& grains, std::span<cons
   std::visit([&](const auto& l) { evaluate_drag(l, grains, viscosity, terms.model_b(), flow); }, law);
 }
 
-}  // namespace bedload
+}   // namespace bedload

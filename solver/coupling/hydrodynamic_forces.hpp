@@ -12,16 +12,17 @@ namespace bedload {
 
 /// By id. Forces are per fluid density ("kinematic": N / (kg/m3) = m4/s2).
 struct FlowAtGrains {
-  std::vector<Vec3> velocity;        // u at the grain [m/s]
-  std::vector<Vec3> acceleration;    // -grad q + nu lap u + G at the grain [m/s2]
-  std::vector<double> void_fraction; // eps at the grain [-]
-  std::vector<double> drag;          // beta/rho_f: drag force per slip and fluid density [m3/s]; divided by eps in Model B
-  std::uint64_t void_clamps = 0;     // grains whose void fraction lay outside [0.26, 1]
+  std::vector<Vec3> velocity;          // u at the grain [m/s]
+  std::vector<Vec3> acceleration;      // -grad q + nu lap u + G at the grain [m/s2]
+  std::vector<double> void_fraction;   // eps at the grain [-]
+  std::vector<double> drag;   // beta/rho_f: drag force per slip and fluid density [m3/s]; divided by eps in Model B
+  std::uint64_t void_clamps = 0;   // grains whose void fraction lay below 0.26
 };
 
 /// Samples the flow with each grain's own weights and evaluates f_d = 3 pi mu d F(eps, Re) eps w, Re = eps |w| d/nu.
 /// Of the fields only ghosts change.
-void sample_flow(const StaggeredGrid&, const Grains&, std::span<const Stencil>, FaceFields& velocity, FaceFields& acceleration,
-                 Field<Centre>& void_fraction, const DragLaw&, double viscosity, const Terms&, FlowAtGrains&);
+void sample_flow(const StaggeredGrid&, const Grains&, std::span<const Stencil>, FaceFields& velocity,
+                 FaceFields& acceleration, Field<Centre>& void_fraction, const DragLaw&, double viscosity, const Terms&,
+                 FlowAtGrains&);
 
-}  // namespace bedload
+}   // namespace bedload

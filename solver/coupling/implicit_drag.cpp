@@ -1,13 +1,13 @@
 #include "solver/coupling/implicit_drag.hpp"
 
+#include <limits>
+
 #include "solver/fluid/boundaries.hpp"
 #include "solver/fluid/face_loops.hpp"
 #include "solver/fluid/operators.hpp"
 
 namespace bedload {
 namespace {
-
-constexpr int most_iterations = 500;
 
 double inner(const StaggeredGrid& g, const FaceFields& a, const FaceFields& b) {
   double total = 0;
@@ -19,24 +19,26 @@ double inner(const StaggeredGrid& g, const FaceFields& a, const FaceFields& b) {
 double inner_scaled(const StaggeredGrid& g, const FaceFields& a, const FaceFields& scale) {
   double total = 0;
   for (int c = 0; c < 3; ++c)
-    total += sum_over_faces(g, c, [x = a.component(c), d = scale.component(c)](std::size_t n) { return x[n] * x[n] / d[n]; });
+    total += sum_over_faces(g, c,
+                            [x = a.component(c), d = scale.component(c)](std::size_t n) { return x[n] * x[n] / d[n]; });
   return total;
 }
 
-}  // namespace
+}   // namespace
 
 ImplicitDrag::ImplicitDrag(const StaggeredGrid& g)
     : exchange_(g), diagonal_(g), residual_(g), direction_(g), image_(g), change_(g), laplacian_(g) {}
 
-/// Fills B, the diagonal and the first residual (that of u* = u^n); returns b_max.
-double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction, const FaceFields& impulse,
-                           const FaceFields& velocity) {
+/// Fills B, the diagonal and the first residual (that of u* = u^n); returns the stiffness b_max.
+double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction,
+                           const FaceFields& impulse, const FaceFields& velocity) {
   clear(exchange_), clear(residual_);
   const Strides stride(g);
   for (std::size_t p = 0; p < problem.stencils.size(); ++p) {
     const double k = problem.exchange[p], a = problem.relaxation[p];
     deposit(problem.stencils[p], stride, {k, k, k}, exchange_);
-    deposit(problem.stencils[p], stride, k / (1 + a) * (a * problem.flow_velocity[p] + problem.ballistic[p]), residual_);
+    deposit(problem.stencils[p], stride, k / (1 + a) * (a * problem.flow_velocity[p] + problem.ballistic[p]),
+            residual_);
   }
   fold_deposits(g, exchange_), fold_deposits(g, residual_);
   const Vec3 h = g.h;
@@ -44,17 +46,19 @@ double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, c
   double b_max = 0;
   for (int c = 0; c < 3; ++c) {
     double *d = diagonal_.component(c), *r = residual_.component(c);
-    const double *b = exchange_.component(c), *eps = void_fraction.component(c), *t = impulse.component(c), *u = velocity.component(c);
+    const double *b = exchange_.component(c), *eps = void_fraction.component(c), *t = impulse.component(c),
+                 *u = velocity.component(c);
     for_each_unknown_face(g, c, [&](std::size_t n) {
       d[n] = eps[n] + b[n] + viscous;
       r[n] += t[n] - b[n] * u[n];
-      b_max = std::max(b_max, b[n] / eps[n]);
+      b_max = std::max(b_max, (b[n] + viscous) / eps[n]);   // what is left of r is stiff in either
     });
   }
   return b_max;
 }
 
-void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction, FaceFields& x, FaceFields& out) {
+void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction,
+                         FaceFields& x, FaceFields& out) {
   clear(out);
   extend_samples(g, x);
   const Strides stride(g);
@@ -71,21 +75,25 @@ void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, con
   }
   for (int c = 0; c < 3; ++c) {
     double* y = out.component(c);
-    const double *eps = void_fraction.component(c), *b = exchange_.component(c), *v = x.component(c), *l = laplacian_.component(c);
-    for_each_unknown_face(g, c, [&](std::size_t n) { y[n] += (eps[n] + b[n]) * v[n] - problem.implicit_viscosity * l[n]; });
+    const double *eps = void_fraction.component(c), *b = exchange_.component(c), *v = x.component(c),
+                 *l = laplacian_.component(c);
+    for_each_unknown_face(g, c,
+                          [&](std::size_t n) { y[n] += (eps[n] + b[n]) * v[n] - problem.implicit_viscosity * l[n]; });
   }
 }
 
-int ImplicitDrag::solve(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction, const FaceFields& impulse,
-                        FaceFields& velocity, std::span<Vec3> flow_velocity) {
+int ImplicitDrag::solve(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction,
+                        const FaceFields& impulse, FaceFields& velocity, std::span<Vec3> flow_velocity) {
   const double b_max = start(g, problem, void_fraction, impulse, velocity);
-  const auto each = [&](auto&& visit) { for (int c = 0; c < 3; ++c) for_each_unknown_face(g, c, [&](std::size_t n) { visit(c, n); }); };
+  const auto each = [&](auto&& visit) {
+    for (int c = 0; c < 3; ++c) for_each_unknown_face(g, c, [&](std::size_t n) { visit(c, n); });
+  };
   clear(change_), clear(direction_), clear(laplacian_);
   const double first = inner(g, residual_, residual_);
-  const double goal = first * (0.01 / (1 + b_max)) * (0.01 / (1 + b_max));
+  const double goal = std::max(first * (0.01 / (1 + b_max)) * (0.01 / (1 + b_max)), std::numeric_limits<double>::min());
   double weighted = inner_scaled(g, residual_, diagonal_), left = first, beta = 0;
   int iterations = 0;
-  while (left > goal && iterations < most_iterations) {
+  while (left > goal && iterations < ImplicitDrag::most_iterations) {
     each([&](int c, std::size_t n) {
       double& d = direction_.component(c)[n];
       d = residual_.component(c)[n] / diagonal_.component(c)[n] + beta * d;
@@ -103,10 +111,13 @@ int ImplicitDrag::solve(const StaggeredGrid& g, const DragProblem& problem, cons
   }
   each([&](int c, std::size_t n) { velocity.component(c)[n] += change_.component(c)[n]; });
   extend_samples(g, velocity);
-  for (std::size_t p = 0; p < problem.stencils.size(); ++p) flow_velocity[p] = sample(problem.stencils[p], Strides(g), velocity);
-  each([&](int c, std::size_t n) { velocity.component(c)[n] += residual_.component(c)[n] / void_fraction.component(c)[n]; });
+  for (std::size_t p = 0; p < problem.stencils.size(); ++p)
+    flow_velocity[p] = sample(problem.stencils[p], Strides(g), velocity);
+  each([&](int c, std::size_t n) {
+    velocity.component(c)[n] += residual_.component(c)[n] / void_fraction.component(c)[n];
+  });
   if (problem.implicit_viscosity > 0) fill_velocity_ghosts(g, change_, 0);
   return iterations;
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -15,15 +15,16 @@ struct DragProblem {
   std::span<const double> exchange, relaxation;
   std::span<const Vec3> ballistic;
   std::span<const Vec3> flow_velocity;   // u^n at the grains [m/s]
-  double implicit_viscosity = 0;   // T nu [m2], or 0 where viscosity is explicit
+  double implicit_viscosity = 0;         // T nu [m2], or 0 where viscosity is explicit
 };
 
 /// Solves, for the change of velocity since u^n,
 ///   (eps_f + B_f) u*_f - sum_p w_pf K [a/(1+a)] (sum_g w_pg u*_g) - T nu lap(u* - u^n) = eps_f u^n_f + T b_f + sum_p w_pf K vt_p/(1+a)
-/// by conjugate gradients (symmetric positive definite, preconditioned by eps + B) to |r| < 0.01/(1 + b_max) |r_0|, b_max = max B/eps.
+/// by conjugate gradients (symmetric positive definite, preconditioned by eps + B) to |r| < 0.01/(1 + b_max) |r_0|, b_max the largest of (B + viscous diagonal)/eps.
 class ImplicitDrag {
  public:
   explicit ImplicitDrag(const StaggeredGrid&);
+  static constexpr int most_iterations = 500;
 
   /// `impulse` = T b_f on entry (b = eps a or a, in Model A or B). On return `velocity` (u^n on entry) holds u* + r/eps, in
   /// which the momentum given to the grains by drag is missing exactly, and `flow_velocity` u* sampled at the grains.
@@ -36,9 +37,10 @@ class ImplicitDrag {
 
  private:
   void apply(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction, FaceFields& x, FaceFields& out);
-  double start(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction, const FaceFields& impulse, const FaceFields& velocity);
+  double start(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction, const FaceFields& impulse,
+               const FaceFields& velocity);
 
   FaceFields exchange_, diagonal_, residual_, direction_, image_, change_, laplacian_;
 };
 
-}  // namespace bedload
+}   // namespace bedload

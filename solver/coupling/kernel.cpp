@@ -37,10 +37,11 @@ void extend(const StaggeredGrid& g, int place, double* f) {
   for_each_image(g, place, {0, 1, 2}, [f](std::ptrdiff_t ghost, std::ptrdiff_t home) { f[ghost] = f[home]; });
 }
 void fold(const StaggeredGrid& g, int place, double* f) {
-  for_each_image(g, place, {2, 1, 0}, [f](std::ptrdiff_t ghost, std::ptrdiff_t home) { f[home] += f[ghost], f[ghost] = 0; });
+  for_each_image(g, place, {2, 1, 0},
+                 [f](std::ptrdiff_t ghost, std::ptrdiff_t home) { f[home] += f[ghost], f[ghost] = 0; });
 }
 
-}  // namespace
+}   // namespace
 
 void extend_samples(const StaggeredGrid& g, FaceFields& f) {
   for (int c = 0; c < 3; ++c) extend(g, c, f.component(c));
@@ -51,4 +52,4 @@ void fold_deposits(const StaggeredGrid& g, FaceFields& f) {
 }
 void fold_deposits(const StaggeredGrid& g, Field<Centre>& f) { fold(g, on_cells, f.data()); }
 
-}  // namespace bedload
+}   // namespace bedload

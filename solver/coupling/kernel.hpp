@@ -101,7 +101,8 @@ inline void deposit(const Stencil& s, Strides stride, double amount, double* fie
 
 /// Value of a face field at a grain, one component per direction of the faces. Ghosts by extend_samples.
 inline Vec3 sample(const Stencil& s, Strides stride, const FaceFields& f) noexcept {
-  return {sample<on_x_faces>(s, stride, f.component(0)), sample<on_y_faces>(s, stride, f.component(1)), sample<on_z_faces>(s, stride, f.component(2))};
+  return {sample<on_x_faces>(s, stride, f.component(0)), sample<on_y_faces>(s, stride, f.component(1)),
+          sample<on_z_faces>(s, stride, f.component(2))};
 }
 
 /// Adds `amount` to a face field: the transpose of sample. Ghosts go home by fold_deposits.
@@ -125,4 +126,4 @@ inline void clear(FaceFields& f, double value = 0) {
 }
 inline void clear(Field<Centre>& f, double value = 0) { std::fill(f.values.begin(), f.values.end(), value); }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -7,8 +7,10 @@ namespace {
 
 /// Exchange, volume and mass of one grain on the faces of one direction, in one pass over its rows.
 template <Place P>
-void deposit_mobile(const Stencil& s, Strides stride, double exchange, double volume, double mass, MixtureResponse& m) noexcept {
-  double *b = m.mobile_exchange.component(P), *phi = m.mobile_fraction.component(P), *inertia = m.mobile_inertia.component(P);
+void deposit_mobile(const Stencil& s, Strides stride, double exchange, double volume, double mass,
+                    MixtureResponse& m) noexcept {
+  double *b = m.mobile_exchange.component(P), *phi = m.mobile_fraction.component(P),
+         *inertia = m.mobile_inertia.component(P);
   const Row along = row_weights<P>(s);
   for_each_row<P>(s, stride, [=](std::ptrdiff_t n, double w) {
     const Row weight = w * along;
@@ -16,10 +18,11 @@ void deposit_mobile(const Stencil& s, Strides stride, double exchange, double vo
   });
 }
 
-}  // namespace
+}   // namespace
 
-void find_mixture_response(const StaggeredGrid& g, const Grains& grains, std::span<const Stencil> stencils, std::span<const double> exchange,
-                           double fluid_density, const FaceFields& void_fraction, bool model_b, MixtureResponse& m) {
+void find_mixture_response(const StaggeredGrid& g, const Grains& grains, std::span<const Stencil> stencils,
+                           std::span<const double> exchange, double fluid_density, const FaceFields& void_fraction,
+                           bool model_b, MixtureResponse& m) {
   clear(m.locked_exchange), clear(m.mobile_exchange), clear(m.mobile_fraction), clear(m.mobile_inertia);
   const Strides stride(g);
   for (std::size_t p = 0; p < grains.size(); ++p) {
@@ -28,16 +31,19 @@ void find_mixture_response(const StaggeredGrid& g, const Grains& grains, std::sp
       deposit(stencils[p], stride, {k, k, k}, m.locked_exchange);
       continue;
     }
-    const double volume = sphere_volume(grains.diameter[p]) / g.cell_volume(), mass = volume * grains.density[p] / fluid_density;
+    const double volume = sphere_volume(grains.diameter[p]) / g.cell_volume(),
+                 mass = volume * grains.density[p] / fluid_density;
     deposit_mobile<on_x_faces>(stencils[p], stride, k, volume, mass, m);
     deposit_mobile<on_y_faces>(stencils[p], stride, k, volume, mass, m);
     deposit_mobile<on_z_faces>(stencils[p], stride, k, volume, mass, m);
   }
-  for (FaceFields* f : {&m.locked_exchange, &m.mobile_exchange, &m.mobile_fraction, &m.mobile_inertia}) fold_deposits(g, *f);
+  for (FaceFields* f : {&m.locked_exchange, &m.mobile_exchange, &m.mobile_fraction, &m.mobile_inertia})
+    fold_deposits(g, *f);
   for (int c = 0; c < 3; ++c) {
     double *cf = m.fluid.component(c), *cp = m.grains.component(c), *both = m.coefficient.component(c);
-    const double *bl = m.locked_exchange.component(c), *bm = m.mobile_exchange.component(c), *phi = m.mobile_fraction.component(c),
-                 *inertia = m.mobile_inertia.component(c), *eps = void_fraction.component(c);
+    const double *bl = m.locked_exchange.component(c), *bm = m.mobile_exchange.component(c),
+                 *phi = m.mobile_fraction.component(c), *inertia = m.mobile_inertia.component(c),
+                 *eps = void_fraction.component(c);
     for_each_unknown_face(g, c, [&](std::size_t n) {
       const double on_fluid = model_b ? 1 : eps[n], on_grains = model_b ? 0 : phi[n];
       const double fluid_side = eps[n] + bl[n], grain_side = inertia[n] + bm[n];
@@ -50,4 +56,4 @@ void find_mixture_response(const StaggeredGrid& g, const Grains& grains, std::sp
   }
 }
 
-}  // namespace bedload
+}   // namespace bedload

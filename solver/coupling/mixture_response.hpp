@@ -14,16 +14,23 @@ namespace bedload {
 struct MixtureResponse {
   MixtureResponse() = default;
   explicit MixtureResponse(const StaggeredGrid& g)
-      : fluid(g), grains(g), coefficient(g), locked_exchange(g), mobile_exchange(g), mobile_fraction(g), mobile_inertia(g) {}
-  FaceFields fluid, grains, coefficient;                // cf, cp, eps cf + phi_M cp
-  FaceFields locked_exchange, mobile_exchange;          // B of fixed grains, of all others: sum w beta T/V_c
-  FaceFields mobile_fraction, mobile_inertia;           // phi_M, and sum w M/(rho_f V_c)
+      : fluid(g),
+        grains(g),
+        coefficient(g),
+        locked_exchange(g),
+        mobile_exchange(g),
+        mobile_fraction(g),
+        mobile_inertia(g) {}
+  FaceFields fluid, grains, coefficient;         // cf, cp, eps cf + phi_M cp
+  FaceFields locked_exchange, mobile_exchange;   // B of fixed grains, of all others: sum w beta T/V_c
+  FaceFields mobile_fraction, mobile_inertia;    // phi_M, and sum w M/(rho_f V_c)
 };
 
 /// Backward Euler on the pair of fluid and mobile grains at each face, coupled by drag:
 ///   (eps + B_L + B_M) cf - B_M cp = eps,   (phi_M s + B_M) cp - B_M cf = phi_M     (Model A)
 /// with 1 and 0 on the right in Model B, where pressure acts on the fluid alone.
-void find_mixture_response(const StaggeredGrid&, const Grains&, std::span<const Stencil>, std::span<const double> exchange,
-                           double fluid_density, const FaceFields& void_fraction, bool model_b, MixtureResponse&);
+void find_mixture_response(const StaggeredGrid&, const Grains&, std::span<const Stencil>,
+                           std::span<const double> exchange, double fluid_density, const FaceFields& void_fraction,
+                           bool model_b, MixtureResponse&);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -32,11 +32,13 @@ struct MovedSpline {
 inline Row row(const double (&v)[4]) noexcept { return Row{v[0], v[1], v[2], v[3]}; }
 
 /// Mean over the move of the product of two splines.
-inline double mean_product(double a, double da, double b, double db) noexcept { return a * b + 0.5 * (da * b + a * db) + da * db / 3; }
+inline double mean_product(double a, double da, double b, double db) noexcept {
+  return a * b + 0.5 * (da * b + a * db) + da * db / 3;
+}
 
 /// Flux through faces normal to x or y: `along` in that direction, `across` in the other, z in rows.
-void sweep_horizontal(const MovedSpline& along, std::ptrdiff_t along_stride, const MovedSpline& across, std::ptrdiff_t across_stride,
-                      const MovedSpline& z, double amount, double* corner) noexcept {
+void sweep_horizontal(const MovedSpline& along, std::ptrdiff_t along_stride, const MovedSpline& across,
+                      std::ptrdiff_t across_stride, const MovedSpline& z, double amount, double* corner) noexcept {
   double passed[4];
   along.passed(passed);
   const Row zb = row(z.before), zd = row(z.change);
@@ -53,17 +55,19 @@ void sweep_vertical(const MovedSpline (&s)[3], Strides stride, double amount, do
   const Row through = amount * row(passed);
   for (int a = 0; a < s[0].count; ++a)
     for (int b = 0; b < s[1].count; ++b)
-      add_row(corner + a * stride.x + b * stride.y, mean_product(s[0].before[a], s[0].change[a], s[1].before[b], s[1].change[b]) * through);
+      add_row(corner + a * stride.x + b * stride.y,
+              mean_product(s[0].before[a], s[0].change[a], s[1].before[b], s[1].change[b]) * through);
 }
 
-}  // namespace
+}   // namespace
 
 void find_stencils(const StaggeredGrid& grid, const Grains& grains, std::vector<Stencil>& stencils) {
   stencils.resize(grains.size());
   for (std::size_t p = 0; p < grains.size(); ++p) stencils[p] = Stencil(grid, grains.position[p]);
 }
 
-void deposit_void_fraction(const StaggeredGrid& grid, const Grains& grains, std::span<const Stencil> stencils, VoidFraction& eps) {
+void deposit_void_fraction(const StaggeredGrid& grid, const Grains& grains, std::span<const Stencil> stencils,
+                           VoidFraction& eps) {
   clear(eps.centre), clear(eps.face);
   const double per_cell = 1 / grid.cell_volume();
   const Strides stride(grid);
@@ -78,18 +82,20 @@ void deposit_void_fraction(const StaggeredGrid& grid, const Grains& grains, std:
     for (double *e = eps.face.component(c), *end = e + grid.padded_size(); e != end; ++e) *e += 1;
 }
 
-void deposit_solid_flux(const StaggeredGrid& grid, const Grains& grains, std::span<const Stencil> stencils, FaceFields& flux) {
+void deposit_solid_flux(const StaggeredGrid& grid, const Grains& grains, std::span<const Stencil> stencils,
+                        FaceFields& flux) {
   clear(flux);
   const double per_cell = 1 / grid.cell_volume();
   const Strides stride(grid);
   for (std::size_t p = 0; p < grains.size(); ++p)
-    if (!grains.fixed[p]) deposit(stencils[p], stride, sphere_volume(grains.diameter[p]) * per_cell * grains.velocity[p], flux);
+    if (!grains.fixed[p])
+      deposit(stencils[p], stride, sphere_volume(grains.diameter[p]) * per_cell * grains.velocity[p], flux);
   fold_deposits(grid, flux);
   clear_walls(grid, flux);
 }
 
-void deposit_swept_flux(const StaggeredGrid& grid, const Grains& grains, std::span<const Vec3> before, std::span<const Vec3> moved,
-                        double dt, FaceFields& flux) {
+void deposit_swept_flux(const StaggeredGrid& grid, const Grains& grains, std::span<const Vec3> before,
+                        std::span<const Vec3> moved, double dt, FaceFields& flux) {
   clear(flux);
   const double per_step = 1 / (grid.cell_volume() * dt);
   const Strides stride(grid);
@@ -108,4 +114,4 @@ void deposit_swept_flux(const StaggeredGrid& grid, const Grains& grains, std::sp
   clear_walls(grid, flux);
 }
 
-}  // namespace bedload
+}   // namespace bedload

@@ -31,4 +31,4 @@ void deposit_solid_flux(const StaggeredGrid&, const Grains&, std::span<const Ste
 void deposit_swept_flux(const StaggeredGrid&, const Grains&, std::span<const Vec3> before, std::span<const Vec3> moved,
                         double dt, FaceFields& flux);
 
-}  // namespace bedload
+}   // namespace bedload

@@ -65,10 +65,13 @@ Vec3 total_momentum(const Scene& scene, const State& state) {
   Vec3 sum;
   for (int c = 0; c < 3; ++c)
     sum[c] = scene.bed.fluid.density * scene.grid.cell_volume() *
-             sum_over_faces(scene.grid, c, [e = eps.face.component(c), u = state.fluid.velocity.component(c)](std::size_t n) { return e[n] * u[n]; });
+             sum_over_faces(scene.grid, c,
+                            [e = eps.face.component(c), u = state.fluid.velocity.component(c)](std::size_t n) {
+                              return e[n] * u[n];
+                            });
   for (std::size_t p = 0; p < state.grains.size(); ++p)
     sum += state.grains.density[p] * sphere_volume(state.grains.diameter[p]) * state.grains.velocity[p];
   return sum;
 }
 
-}  // namespace bedload::test
+}   // namespace bedload::test

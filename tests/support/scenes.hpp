@@ -29,4 +29,4 @@ std::vector<Vec3> cubic_places(std::array<int, 3> count, Vec3 low, Vec3 high, do
 /// Total momentum of fluid and grains [kg m/s].
 Vec3 total_momentum(const Scene&, const State&);
 
-}  // namespace bedload::test
+}   // namespace bedload::test

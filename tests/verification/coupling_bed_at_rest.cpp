@@ -13,7 +13,9 @@ namespace {
 double fastest_flow(const Scene& scene, const State& state) {
   double fastest = 0;
   for (int c = 0; c < 3; ++c)
-    for_each_unknown_face(scene.grid, c, [&, u = state.fluid.velocity.component(c)](std::size_t n) { fastest = std::max(fastest, std::abs(u[n])); });
+    for_each_unknown_face(scene.grid, c, [&, u = state.fluid.velocity.component(c)](std::size_t n) {
+      fastest = std::max(fastest, std::abs(u[n]));
+    });
   return fastest;
 }
 
@@ -44,5 +46,5 @@ TEST(FreeBed, ComesToRestInStillFluid) {
   EXPECT_LT(late, early);
 }
 
-}  // namespace
-}  // namespace bedload::test
+}   // namespace
+}   // namespace bedload::test

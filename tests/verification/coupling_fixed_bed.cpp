@@ -78,22 +78,32 @@ TEST(FixedBed, LetsThroughTheLawsOwnVelocityAtAFluidStepOfAMillisecond) {
 TEST(FixedBed, GivesTheSameVelocityInModelAAndModelB) {
   const double gradient = 10;
   DarcyBed a = darcy_bed({}), b = darcy_bed({true, true, false, false});
-  const double ua = settle_flow(a.scene, a.state, gradient, 1e-3, 40), ub = settle_flow(b.scene, b.state, gradient, 1e-3, 40);
+  const double ua = settle_flow(a.scene, a.state, gradient, 1e-3, 40),
+               ub = settle_flow(b.scene, b.state, gradient, 1e-3, 40);
   EXPECT_NEAR(ua / ub, 1, 0.01);
 }
 
-TEST(FixedBed, ResistsWithTheLawsOwnGradientWhenItIsRandom) {
-  // d 1 mm, cells of 2 d, jittered lattice, Re 0.01 to 100 by way of the viscosity.
-  const double d = 1e-3;
-  for (const double viscosity : {1e-4, 1e-6}) {
-    Scene scene = fluid_scene({6, 6, 6}, {2 * d, 2 * d, 2 * d}, periodic_box, viscosity);
-    add_grains(scene, d, 2.65, 1e-2);
-    State state = state_of(scene, cubic_places({12, 12, 12}, {}, scene.grid.length(), 0.2 * d, 7), true);
-    const double phi = std::numbers::pi / 6, gradient = 20 * viscosity / 1e-4;
-    const double expected = law_velocity(DragLawName::di_felice, phi, d, viscosity, gradient);
-    const double u = settle_flow(scene, state, gradient, 0.2 * d / expected, 300);
-    EXPECT_NEAR(u / expected, 1, 0.02) << "Re " << expected * d / viscosity;
-  }
+struct RandomBed {
+  double viscosity, reynolds;
+  Terms terms{};
+};
+class RandomFixedBed : public testing::TestWithParam<RandomBed> {};
+INSTANTIATE_TEST_SUITE_P(FixedBed, RandomFixedBed,
+                         testing::Values(RandomBed{1e-4, 0.01}, RandomBed{1e-6, 1}, RandomBed{1e-6, 10},
+                                         RandomBed{1e-6, 100}, RandomBed{1e-6, 10, {true, true, false, false}}));
+
+TEST_P(RandomFixedBed, ResistsWithTheLawsOwnGradient) {
+  const auto [viscosity, reynolds, terms] = GetParam();
+  const double d = 1e-3, phi = std::numbers::pi / 6,
+               expected = reynolds * viscosity / d;   // superficial velocity wanted
+  const double gradient =
+      18 * phi * viscosity * DiFelice{}.multiplier(1 - phi, reynolds) * expected / ((1 - phi) * d * d);
+  Scene scene = fluid_scene({6, 6, 6}, {2 * d, 2 * d, 2 * d}, periodic_box, viscosity);
+  scene.terms = terms;
+  add_grains(scene, d, 2.65, 1e-2);
+  State state = state_of(scene, cubic_places({12, 12, 12}, {}, scene.grid.length(), 0.2 * d, 7), true);
+  const double u = settle_flow(scene, state, gradient, 0.2 * d / expected, 300);
+  EXPECT_NEAR(u / expected, 1, 0.02);
 }
 
 TEST(FixedBed, InStillFluidStaysExactlyStill) {
@@ -104,6 +114,8 @@ TEST(FixedBed, InStillFluidStaysExactlyStill) {
   State state = state_of(scene, cubic_places({12, 12, 4}, {}, {12 * d, 12 * d, 4 * d}, 0.1 * d, 3), true);
   Coupler coupler(scene);
   for (int i = 0; i < 50; ++i) coupler.step(state, 1e-3);
+  EXPECT_EQ(coupler.books().on_grains, Vec3{});
+  for (const Vec3& drag : coupler.drag_on_grains()) EXPECT_EQ(drag, Vec3{});
   for (int c = 0; c < 3; ++c)
     for_each_unknown_face(scene.grid, c, [&](std::size_t n) { EXPECT_EQ(state.fluid.velocity.component(c)[n], 0); });
 }
@@ -121,7 +133,8 @@ TEST_P(ShearedBed, TakesTheWholeStressAndDragsNoSurfaceGrainUpstream) {
   // start from the Couette profile above the bed, then run for more than its diffusion time (7 d)^2/nu = 0.5 s
   const Scene& sc = scene;
   for_each_unknown_face(sc.grid, 0, [&](std::size_t n) {
-    const double z = (static_cast<int>(n % static_cast<std::size_t>(sc.grid.stride(1))) - StaggeredGrid::ghosts + 0.5) * hz;
+    const double z =
+        (static_cast<int>(n % static_cast<std::size_t>(sc.grid.stride(1))) - StaggeredGrid::ghosts + 0.5) * hz;
     state.fluid.velocity.component(0)[n] = lid * std::max(0.0, (z - 5 * d) / (7 * d));
   });
   Coupler coupler(scene);
@@ -142,5 +155,5 @@ TEST_P(ShearedBed, TakesTheWholeStressAndDragsNoSurfaceGrainUpstream) {
   EXPECT_GT(surface_share / on_lid, 0.5);   // most of the stress is borne at the surface, at any cell height
 }
 
-}  // namespace
-}  // namespace bedload::test
+}   // namespace
+}   // namespace bedload::test

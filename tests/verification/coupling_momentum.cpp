@@ -16,13 +16,21 @@ double sum_of_sizes(const State& state) {
   return sum;
 }
 
-class PeriodicSuspension : public testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(Momentum, PeriodicSuspension, testing::Values(1.05, 2.65));
+const Terms model_b{true, true, false, false};
+
+struct MomentumCase {
+  double density_ratio;
+  Terms terms{};
+};
+class PeriodicSuspension : public testing::TestWithParam<MomentumCase> {};
+INSTANTIATE_TEST_SUITE_P(Momentum, PeriodicSuspension,
+                         testing::Values(MomentumCase{1.05}, MomentumCase{2.65}, MomentumCase{2.65, model_b}));
 
 TEST_P(PeriodicSuspension, KeepsItWhileGrainsMoveAndCollide) {
   const double d = 1e-3;
   Scene scene = fluid_scene({4, 4, 8}, {2 * d, 2 * d, d}, periodic_box, 1e-6);
-  add_grains(scene, d, GetParam(), 0.1);
+  scene.terms = GetParam().terms;
+  add_grains(scene, d, GetParam().density_ratio, 0.1);
   State state = state_of(scene, cubic_places({7, 7, 7}, {}, scene.grid.length(), 0.05 * d, 5), false);
   std::mt19937 random(9);
   for (Vec3& v : state.grains.velocity)
@@ -40,5 +48,48 @@ TEST_P(PeriodicSuspension, KeepsItWhileGrainsMoveAndCollide) {
   EXPECT_LT(norm(total_momentum(scene, state) - start) / scale, 1e-10);
 }
 
-}  // namespace
-}  // namespace bedload::test
+struct BooksCase {
+  Terms terms{};
+  double viscosity = 1e-6;
+};
+class ShearedMixture : public testing::TestWithParam<BooksCase> {};
+INSTANTIATE_TEST_SUITE_P(Momentum, ShearedMixture,
+                         testing::Values(BooksCase{}, BooksCase{model_b}, BooksCase{{}, 1e-2},
+                                         BooksCase{model_b, 1e-2}));   // 1e-2: implicit
+
+TEST_P(ShearedMixture, IsBookedCompletelyAlongTheFlow) {
+  // A tilted channel with a lid and a gradient; fixed and free grains of two sizes and densities. What the fluid gains is
+  // what drives it, less the forces on walls and grains.
+  const double d = 1e-3;
+  Scene scene = fluid_scene({4, 4, 12}, {2 * d, 2 * d, d}, channel, GetParam().viscosity);
+  scene.bed.gravity = {1.0, 0, -9.7};
+  scene.terms = GetParam().terms;
+  add_grains(scene, d, 2.65, 0.1);
+  State state = state_of(scene, cubic_places({7, 7, 7}, {}, {8 * d, 8 * d, 7.5 * d}, 0.05 * d, 6), false);
+  for (std::size_t p = 0; p < state.grains.size(); ++p) {
+    state.grains.fixed[p] = state.grains.position[p].z < 2 * d;
+    if (p % 3 == 0) state.grains.density[p] = 1500, state.grains.diameter[p] *= 0.9;
+  }
+  state.search.lid_speed = 0.3;
+  state.search.gradient = 0.5;
+  Coupler coupler(scene);
+  const auto fluid_momentum = [&] {
+    double sum = total_momentum(scene, state).x;
+    for (std::size_t p = 0; p < state.grains.size(); ++p)
+      sum -= state.grains.density[p] * sphere_volume(state.grains.diameter[p]) * state.grains.velocity[p].x;
+    return sum;
+  };
+  for (int i = 0; i < 100; ++i) {
+    const double before = fluid_momentum();
+    const StepHealth health = coupler.step(state, scene.steps.fluid_interval);
+    ASSERT_TRUE(health.finite && !health.lost_grain);
+    const StepBooks& books = coupler.books();
+    const double booked = books.driving.x - books.on_bottom.x - books.on_lid.x - books.on_grains.x;
+    const double scale = std::abs(books.driving.x) + std::abs(books.on_lid.x) + std::abs(books.on_grains.x) +
+                         std::abs(before) / health.dt;
+    EXPECT_NEAR((fluid_momentum() - before) / health.dt / scale, booked / scale, 1e-12);
+  }
+}
+
+}   // namespace
+}   // namespace bedload::test

@@ -39,7 +39,7 @@ double interpolated(double x, double h, double offset, Sample&& sample) {
   return value;
 }
 
-Scene channel_scene(int cells) { return fluid_scene({1, 1, cells}, {0.5, 0.5, height / cells}, channel, viscosity); }
+Scene channel_scene(int cells) { return fluid_scene({1, 1, cells}, {5, 5, height / cells}, channel, viscosity); }
 
 double speed_at(const Scene& scene, const State& state, double z) {
   return interpolated(z, scene.grid.h.z, 0.5, [&](int k) { return state.fluid.velocity.x[scene.grid.index(0, 0, k)]; });
@@ -70,13 +70,13 @@ TEST(FluidFlows, CouetteStartUpFollowsTheSeriesSolution) {
 }
 
 TEST(FluidFlows, ImplicitViscosityEndsInTheSameCouetteFlow) {
-  for (double number : {0.6, 3.0, 10.0}) {   // nu dt/h^2
+  for (double number : {0.6, 3.0, 10.0, 100.0}) {   // nu dt/h^2
     const Scene scene = channel_scene(16);
     State state = state_of(scene, {}, false);
     state.search.lid_speed = speed;
     Coupler coupler(scene);
     const double h = scene.grid.h.z;
-    advance(coupler, state, 4 * height * height / viscosity, number * h * h / viscosity);
+    advance(coupler, state, 8 * height * height / viscosity, number * h * h / viscosity);
     for (int k = 0; k < 16; ++k)
       EXPECT_NEAR(state.fluid.velocity.x[scene.grid.index(0, 0, k)], speed * (k + 0.5) * h, 1e-6 * speed) << number;
     const double shear = density * viscosity * speed / height * scene.grid.length().x * scene.grid.length().y;

@@ -15,9 +15,11 @@ TEST(DragLaws, TendToStokesForALoneSlowGrain) {
 
 TEST(DragLaws, DiFeliceGivesItsTabulatedMultipliers) {
   // phi, Re, F: evaluated independently from the published formula, four digits.
-  const double table[][3] = {{0.01, 1, 1.272},   {0.10, 0.01, 1.455}, {0.10, 10, 2.672}, {0.30, 0.01, 3.686}, {0.30, 10, 5.863}, {0.50, 0.01, 12.79},
-                             {0.50, 10, 16.79},  {0.50, 100, 44.83},  {0.60, 0.01, 29.20}, {0.60, 1, 30.05},  {0.60, 100, 90.06}};
-  for (const auto& [phi, re, f] : table) EXPECT_NEAR(DiFelice{}.multiplier(1 - phi, re) / f, 1, 5e-4) << phi << " " << re;
+  const double table[][3] = {{0.01, 1, 1.272},    {0.10, 0.01, 1.455}, {0.10, 10, 2.672}, {0.30, 0.01, 3.686},
+                             {0.30, 10, 5.863},   {0.50, 0.01, 12.79}, {0.50, 10, 16.79}, {0.50, 100, 44.83},
+                             {0.60, 0.01, 29.20}, {0.60, 1, 30.05},    {0.60, 100, 90.06}};
+  for (const auto& [phi, re, f] : table)
+    EXPECT_NEAR(DiFelice{}.multiplier(1 - phi, re) / f, 1, 5e-4) << phi << " " << re;
 }
 
 TEST(DragLaws, SchillerNaumannMeetsNewtonsPlateauNearRe1000) {
@@ -40,5 +42,5 @@ TEST(DragLaws, SettleALoneGrainAtTheirPublishedSpeed) {
   EXPECT_NEAR(speed(DragLawName::di_felice), 8.981035e-3, 1e-8);
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload

@@ -25,7 +25,8 @@ Grains random_grains(const StaggeredGrid& g, std::size_t count, unsigned seed) {
   Grains grains;
   grains.resize(count);
   for (std::size_t p = 0; p < count; ++p) {
-    for (int c = 0; c < 3; ++c) grains.position[p][c] = g.length()[c] * unit(random), grains.velocity[p][c] = unit(random) - 0.5;
+    for (int c = 0; c < 3; ++c)
+      grains.position[p][c] = g.length()[c] * unit(random), grains.velocity[p][c] = unit(random) - 0.5;
     grains.diameter[p] = 3e-4 * (1 + 0.2 * unit(random));
     grains.density[p] = 2650;
   }
@@ -42,7 +43,8 @@ double solid_volume(const Grains& grains) {
 }
 
 class OnAnyBox : public testing::TestWithParam<std::array<Side, 3>> {};
-INSTANTIATE_TEST_SUITE_P(VoidFraction, OnAnyBox, testing::Values(open, closed, std::array{Side::periodic, Side::periodic, Side::wall}));
+INSTANTIATE_TEST_SUITE_P(VoidFraction, OnAnyBox,
+                         testing::Values(open, closed, std::array{Side::periodic, Side::periodic, Side::wall}));
 
 TEST_P(OnAnyBox, ConservesGrainVolume) {
   const StaggeredGrid g = grid_with(GetParam());
@@ -107,10 +109,14 @@ TEST_P(OnAnyBox, HasARateOfChangeEqualToTheDivergenceOfTheSolidFlux) {
   divergence(g, flux, source);
   const double dt = 1e-7;   // central difference: error O(dt^2)
   VoidFraction later(g), earlier(g);
-  for (Vec3 *x = grains.position.data(), *v = grains.velocity.data(); x != grains.position.data() + grains.size(); ++x, ++v) *x += dt * *v;
+  for (Vec3 *x = grains.position.data(), *v = grains.velocity.data(); x != grains.position.data() + grains.size();
+       ++x, ++v)
+    *x += dt * *v;
   find_stencils(g, grains, stencils);
   deposit_void_fraction(g, grains, stencils, later);
-  for (Vec3 *x = grains.position.data(), *v = grains.velocity.data(); x != grains.position.data() + grains.size(); ++x, ++v) *x -= 2 * dt * *v;
+  for (Vec3 *x = grains.position.data(), *v = grains.velocity.data(); x != grains.position.data() + grains.size();
+       ++x, ++v)
+    *x -= 2 * dt * *v;
   find_stencils(g, grains, stencils);
   deposit_void_fraction(g, grains, stencils, earlier);
   double largest = 0;
@@ -127,7 +133,9 @@ TEST_P(OnAnyBox, HasARateOfChangeEqualToTheDivergenceOfTheSolidFlux) {
 TEST(Kernel, SamplesALinearFieldExactlyInTheInterior) {
   const StaggeredGrid g = grid_with(open);
   FaceFields u(g);
-  for_each_unknown_face(g, 0, [&](std::size_t n) { u.component(0)[n] = static_cast<double>(n % (g.cells[2] + 4)) - 2; });   // k of the cell
+  for_each_unknown_face(g, 0, [&](std::size_t n) {
+    u.component(0)[n] = static_cast<double>(n % (g.cells[2] + 4)) - 2;
+  });   // k of the cell
   const Stencil s(g, {4.3e-3, 2.2e-3, 1.61e-3});
   extend_samples(g, u);
   EXPECT_NEAR(sample(s, Strides(g), u).x, 1.61e-3 / g.h.z - 0.5, 1e-12);
@@ -154,5 +162,5 @@ TEST(Kernel, DepositIsTheTransposeOfSample) {
   }
 }
 
-}  // namespace
-}  // namespace bedload
+}   // namespace
+}   // namespace bedload
