@@ -13,10 +13,10 @@ struct Performance {
   double grain_steps = 0;   // grains x DEM steps
   double cell_steps = 0;    // cells x fluid steps
   double fluid_steps = 0;
-  double substeps = 0;      // DEM steps
-  std::array<double, 6> shortened{};   // fluid steps shortened, by StepLimit
+  double substeps = 0;                       // DEM steps
+  std::array<double, 6> shortened{};         // fluid steps shortened, by StepLimit
   double void_clamps = 0, unconverged = 0;   // fluid steps with either
-  double model_time = 0;   // [s]
+  double model_time = 0;                     // [s]
 
   void add(const StepHealth&, std::size_t grains, std::size_t cells);
 };
