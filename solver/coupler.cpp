@@ -19,6 +19,7 @@ namespace {
 
 constexpr double largest_cfl = 0.5;
 constexpr double largest_grain_travel = 0.2;   // of a cell edge
+constexpr double harmless_relaxation = 0.2;    // below it even explicit drag is stable
 constexpr double largest_relaxation = 200;     // a = beta T/M of any grain
 constexpr double explicit_viscosity_limit = 1.0 / 12;
 constexpr double pressure_tolerance =
@@ -255,10 +256,14 @@ void Coupler::Parts::limit_by_grains(const State& state, double& step) {
   for (std::size_t p = 0; p < grains.size(); ++p)
     if (!grains.fixed[p]) fastest = std::max(fastest, norm(grains.velocity[p]));
   if (fastest > 0) shorten(step, largest_grain_travel * shortest_edge / fastest, StepLimit::travel);
+  double relaxation_time = std::numeric_limits<double>::infinity();   // the shortest M/beta
   for (std::size_t p = 0; p < grains.size(); ++p)
     if (!grains.fixed[p] && flow.drag[p] > 0)
-      shorten(step, largest_relaxation * specific_mass(grains, p) / flow.drag[p], StepLimit::drag);
-  shorten(step, 0.5 * shortest_contact(grains, scene.bed.grains, fastest), StepLimit::contact);
+      relaxation_time = std::min(relaxation_time, specific_mass(grains, p) / flow.drag[p]);
+  shorten(step, largest_relaxation * relaxation_time, StepLimit::drag);
+  // Drag that is constant over a step lags behind a collision; that matters only where drag is not weak.
+  const double weak_drag = harmless_relaxation * relaxation_time;
+  shorten(step, std::max(0.5 * shortest_contact(grains, scene.bed.grains, fastest), weak_drag), StepLimit::contact);
   shorten(step, 0.1 * fall_time, StepLimit::weight);
 }
 

@@ -1,0 +1,99 @@
+// The length of a coupled step, what decides it, and steps that fail.
+#include "solver/coupler.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/support/scenes.hpp"
+
+namespace bedload::test {
+namespace {
+
+constexpr double d = 1e-3;
+
+/// One grain of density ratio 2.65 in a box of 8 d, still fluid of the given viscosity, no weight.
+struct LoneGrain {
+  explicit LoneGrain(double viscosity, std::array<Side, 3> sides = periodic_box)
+      : scene(fluid_scene({4, 4, 4}, {2 * d, 2 * d, 2 * d}, sides, viscosity)) {
+    add_grains(scene, d, 2.65, 0.1);
+    state = state_of(scene, {{4 * d, 4 * d, 4 * d}}, false);
+  }
+  StepHealth step() { return Coupler(scene).step(state, scene.steps.fluid_interval); }
+
+  Scene scene;
+  State state;
+};
+
+TEST(FluidStep, IsTenDemStepsWhereNothingLimitsIt) {
+  LoneGrain grain(1e-6);
+  const StepHealth health = grain.step();
+  EXPECT_EQ(health.substeps, 10);
+  EXPECT_EQ(health.limited_by, StepLimit::asked);
+  EXPECT_DOUBLE_EQ(health.dt, 10 * grain.scene.bed.dem_step);
+}
+
+TEST(FluidStep, KeepsTheCourantNumberOfTheFluidAtOneHalf) {
+  LoneGrain grain(1e-6);
+  const double speed = 2 * d / grain.scene.steps.fluid_interval;   // one cell per interval
+  std::fill(grain.state.fluid.velocity.x.values.begin(), grain.state.fluid.velocity.x.values.end(), speed);
+  grain.state.grains.velocity[0] = {speed, 0, 0};
+  grain.scene.drag = DragLawName::stokes;
+  const StepHealth health = grain.step();
+  EXPECT_LE(health.cfl, 0.5);
+  EXPECT_LT(health.substeps, 10);
+}
+
+TEST(FluidStep, LetsAGrainTravelAFifthOfACell) {
+  LoneGrain grain(1e-9);   // hardly any drag: neither collisions nor relaxation bind
+  grain.state.grains.velocity[0] = {0.5 * 2 * d / grain.scene.steps.fluid_interval, 0, 0};
+  const StepHealth health = grain.step();
+  EXPECT_EQ(health.limited_by, StepLimit::travel);
+  EXPECT_LE(health.grain_travel, 0.2 * (1 + 1e-9));
+}
+
+TEST(FluidStep, ResolvesCollisionsOnlyWhereDragIsNotWeak) {
+  LoneGrain stiff(1e-4), weak(1e-7);
+  for (LoneGrain* grain : {&stiff, &weak}) {
+    grain->scene.steps.fluid_interval = 100 * grain->scene.bed.dem_step;
+    grain->state.grains.velocity[0] = {1e-3, 0, 0};
+  }
+  EXPECT_EQ(stiff.step().limited_by, StepLimit::contact);
+  EXPECT_EQ(weak.step().substeps, 100);
+}
+
+TEST(FluidStep, IsATenthOfTheGrainTimeUnderWeight) {
+  LoneGrain grain(1e-7);
+  grain.scene.bed.gravity = {0, 0, -9.81};
+  grain.scene.steps.fluid_interval = 1;
+  const StepHealth health = grain.step();
+  EXPECT_EQ(health.limited_by, StepLimit::weight);
+  EXPECT_LE(health.dt, 0.1 * std::sqrt(d / (1.65 * 9.81)));
+}
+
+TEST(FluidStep, ShortensTheDemStepBelowOne) {
+  LoneGrain grain(1e-9);
+  grain.state.grains.velocity[0] = {2 * d / grain.scene.bed.dem_step, 0, 0};   // one cell per DEM step
+  const StepHealth health = grain.step();
+  EXPECT_EQ(health.substeps, 1);
+  EXPECT_NEAR(health.dt, 0.2 * grain.scene.bed.dem_step, 1e-9 * grain.scene.bed.dem_step);
+}
+
+TEST(FluidStep, FailsWhenAGrainsCentrePassesAWall) {
+  LoneGrain grain(1e-9, channel);
+  grain.state.grains.position[0].z = 0.02 * d;
+  grain.state.grains.velocity[0] = {0, 0, -100};
+  grain.scene.bed.grains.young_modulus = 1;   // a wall too soft to stop it
+  EXPECT_TRUE(grain.step().lost_grain);
+}
+
+TEST(FluidStep, FailsWhenAnyComponentIsNotANumber) {
+  for (int c = 0; c < 3; ++c) {
+    LoneGrain grain(1e-6);
+    grain.state.fluid.velocity.component(c)[grain.scene.grid.index(0, 0, 0)] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(grain.step().finite) << c;
+  }
+}
+
+}   // namespace
+}   // namespace bedload::test
