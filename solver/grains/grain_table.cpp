@@ -18,7 +18,8 @@ namespace bedload {
 namespace {
 
 constexpr std::string_view header = "x,y,z,diameter,density,fixed";
-constexpr double tolerated_overlap = 0.01;   // of the smaller diameter
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";   // spreadsheets write it before UTF-8
+constexpr double tolerated_overlap = 0.01;                     // of the smaller diameter
 
 /// Collects what is wrong, and says it all at once (or the first few of many).
 class Complaints {
@@ -62,7 +63,7 @@ std::optional<double> number(std::string_view text) {
 std::optional<std::array<double, 6>> six_numbers(std::string_view line, std::size_t row, Complaints& complaints) {
   const auto commas = std::ranges::count(line, ',');
   if (commas != 5) {
-    complaints.add(fmt::format("bed.file: row {}: {} columns where {} are due", row, commas + 1, header));
+    complaints.add(fmt::format("row {}: {} columns where {} are due", row, commas + 1, header));
     return std::nullopt;
   }
   std::array<double, 6> values{};
@@ -71,7 +72,7 @@ std::optional<std::array<double, 6>> six_numbers(std::string_view line, std::siz
     const std::string_view name = take_until(names, ','), text = take_until(line, ',');
     const auto read = number(text);
     if (!read) {
-      complaints.add(fmt::format("bed.file: row {}: {} = \"{}\" is not a number", row, name, text));
+      complaints.add(fmt::format("row {}: {} = \"{}\" is not a number", row, name, text));
       return std::nullopt;
     }
     value = *read;
@@ -81,18 +82,16 @@ std::optional<std::array<double, 6>> six_numbers(std::string_view line, std::siz
 
 void check_row(const BedScene& scene, const std::array<double, 6>& v, std::size_t row, Complaints& complaints) {
   const auto [x, y, z, diameter, density, fixed] = v;
-  if (!(diameter > 0)) complaints.add(fmt::format("bed.file: row {}: diameter = {} m is not positive", row, diameter));
-  if (!(density > 0)) complaints.add(fmt::format("bed.file: row {}: density = {} kg/m3 is not positive", row, density));
-  if (fixed != 0 && fixed != 1)
-    complaints.add(fmt::format("bed.file: row {}: fixed = {} is neither 0 nor 1", row, fixed));
+  if (!(diameter > 0)) complaints.add(fmt::format("row {}: diameter = {} m is not positive", row, diameter));
+  if (!(density > 0)) complaints.add(fmt::format("row {}: density = {} kg/m3 is not positive", row, density));
+  if (fixed != 0 && fixed != 1) complaints.add(fmt::format("row {}: fixed = {} is neither 0 nor 1", row, fixed));
   const PeriodicBox box(scene);
   for (int c = 0; c < 3; ++c) {
     // A fixed grain may stand half in a wall: rough bottoms are made so.
     const double room = box.periodic(c) || fixed == 1 ? 0 : diameter * (0.5 - tolerated_overlap);
     if (v[c] < room || v[c] > box.length[c] - room)
-      complaints.add(
-          fmt::format("bed.file: row {}: the grain at {} = {} m of diameter {} m is outside the box (0 to {} m)", row,
-                      "xyz"[c], v[c], diameter, box.length[c]));
+      complaints.add(fmt::format("row {}: the grain at {} = {} m of diameter {} m is outside the box (0 to {} m)", row,
+                                 "xyz"[c], v[c], diameter, box.length[c]));
   }
 }
 
@@ -110,11 +109,11 @@ void check_overlaps(const BedScene& scene, const Grains& grains, const std::vect
     const double distance = norm(box.shortest(grains.position[j] - grains.position[i]));
     const double overlap = radius[i] + radius[j] - distance;
     if (distance < 1e-9 * smaller)
-      complaints.add(fmt::format("bed.file: rows {} and {}: two grains at one place", row[i], row[j]));
+      complaints.add(fmt::format("rows {} and {}: two grains at one place", row[i], row[j]));
     else if (overlap > tolerated_overlap * smaller)
       complaints.add(fmt::format(
-          "bed.file: rows {} and {}: the grains overlap by {:.3g} m, {:.3g} % of a diameter; at most {} % is accepted",
-          row[i], row[j], overlap, 100 * overlap / smaller, 100 * tolerated_overlap));
+          "rows {} and {}: the grains overlap by {:.3g} m, {:.3g} % of a diameter; at most {} % is accepted", row[i],
+          row[j], overlap, 100 * overlap / smaller, 100 * tolerated_overlap));
   }
 }
 
@@ -122,12 +121,15 @@ void check_overlaps(const BedScene& scene, const Grains& grains, const std::vect
 
 Grains read_grain_table(const BedScene& scene) {
   std::string_view rest = scene.source.csv;
+  if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
   Complaints complaints;
   const std::string_view found = take_until(rest, '\n');
   if (found != header)
-    throw Error(ErrorKind::study_invalid,
-                fmt::format("bed.file: row 1: the header is \"{}\", not \"{}\"", found, header),
+    throw Error(ErrorKind::study_invalid, fmt::format("row 1: the header is \"{}\", not \"{}\"", found, header),
                 "the first line names the columns, in this order; all values are in SI units");
+  if (rest.find_first_not_of(" \t\r\n") == rest.npos)
+    throw Error(ErrorKind::study_invalid, "the table has a header and no grains",
+                "add rows; bed.source = \"none\" is a box without grains");
   Grains grains;
   std::vector<std::size_t> row_of;
   for (std::size_t row = 2; !rest.empty(); ++row) {
@@ -145,7 +147,7 @@ Grains read_grain_table(const BedScene& scene) {
   }
   complaints.raise("columns are x,y,z,diameter,density,fixed in SI units");
   grains.resize(grains.size());   // velocity, spin and the rest: zero
-  if (grains.size() > 0) check_overlaps(scene, grains, row_of, complaints);
+  check_overlaps(scene, grains, row_of, complaints);
   complaints.raise("settle the bed before it is written, or thin it out");
   return grains;
 }

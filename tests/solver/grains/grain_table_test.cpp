@@ -39,8 +39,16 @@ TEST(GrainTable, ReadsGrainsInOrderAtRest) {
   EXPECT_EQ(grains.velocity[1], Vec3{});
 }
 
-TEST(GrainTable, AcceptsAnEmptyBedAndAGrainOnTheSeam) {
-  EXPECT_EQ(place_grains(with_table(header)).size(), 0u);
+TEST(GrainTable, RefusesATableWithoutGrains) {
+  EXPECT_EQ(refusal(header), "the table has a header and no grains");
+  EXPECT_EQ(refusal(header + "\r\n\n"), "the table has a header and no grains");
+}
+
+TEST(GrainTable, MayBeginWithTheByteOrderMarkOfASpreadsheet) {
+  EXPECT_EQ(place_grains(with_table("\xEF\xBB\xBF" + header + "0.01,0.02,0.03,1e-3,2500,0\n")).size(), 1u);
+}
+
+TEST(GrainTable, AcceptsAGrainOnTheSeam) {
   EXPECT_EQ(place_grains(with_table(header + "0.04,0.02,0.03,1e-3,2500,0\n")).position[0].x, 0);
 }
 
