@@ -19,23 +19,6 @@ bool packed(const BedScene& bed) {
   return bed.source.kind == BedSource::Kind::poured || bed.source.kind == BedSource::Kind::lattice;
 }
 
-void check_grains(const BedScene& bed, Found& found) {
-  const auto& g = bed.grains;
-  if (g.spread > 0.3)
-    found.push_back({"grains.spread", fmt::format("{} lets the smallest grain vanish", g.spread), "at most 0.3"});
-  if (g.restitution > 1)
-    found.push_back(
-        {"grains.restitution", fmt::format("{} makes energy in every collision", g.restitution), "above 0, at most 1"});
-  if (g.poisson > 0.49)
-    found.push_back({"grains.poisson", fmt::format("{} is not Poisson's ratio of a solid", g.poisson),
-                     "0 to 0.49; glass and quartz: 0.2-0.3"});
-  if (needs_settling(bed) && g.density <= bed.fluid.density)
-    found.push_back(
-        {"grains.density",
-         fmt::format("grains of {} kg/m3 do not settle in a fluid of {} kg/m3", g.density, bed.fluid.density),
-         "heavier grains, or bed.source = \"file\""});
-}
-
 void check_fit(const BedScene& bed, Found& found) {
   const double largest = largest_diameter(bed), depth = expected_bed_depth(bed);
   const char* edges[] = {"box.length", "box.width", "box.height"};
@@ -130,9 +113,27 @@ void check_steps(const Scene& scene, Found& found) {
 
 }   // namespace
 
-std::vector<SceneProblem> problems_of(const Scene& scene) {
+std::vector<SceneProblem> grain_problems_of(const BedScene& bed) {
+  const auto& g = bed.grains;
   Found found;
-  check_grains(scene.bed, found);
+  if (!(g.spread >= 0 && g.spread <= 0.3))
+    found.push_back({"grains.spread", fmt::format("{} lets the smallest grain vanish", g.spread), "from 0 to 0.3"});
+  if (g.restitution > 1)
+    found.push_back(
+        {"grains.restitution", fmt::format("{} makes energy in every collision", g.restitution), "above 0, at most 1"});
+  if (g.poisson > 0.49)
+    found.push_back({"grains.poisson", fmt::format("{} is not Poisson's ratio of a solid", g.poisson),
+                     "0 to 0.49; glass and quartz: 0.2-0.3"});
+  if (needs_settling(bed) && g.density <= bed.fluid.density)
+    found.push_back(
+        {"grains.density",
+         fmt::format("grains of {} kg/m3 do not settle in a fluid of {} kg/m3", g.density, bed.fluid.density),
+         "heavier grains, or bed.source = \"file\""});
+  return found;
+}
+
+std::vector<SceneProblem> problems_of(const Scene& scene) {
+  Found found = grain_problems_of(scene.bed);
   check_fit(scene.bed, found);
   check_grid(scene, found);
   check_drive(scene, found);

@@ -56,6 +56,8 @@ struct SceneProblem {
   std::string parameter, message, hint;
 };
 std::vector<SceneProblem> problems_of(const Scene&);
+/// The same of the grains alone; needs neither their stiffness nor steps.
+std::vector<SceneProblem> grain_problems_of(const BedScene&);
 
 /// Refuses a scene that cannot run (ErrorKind::study_invalid), all problems in one message, one per line.
 void validate(const Scene&);

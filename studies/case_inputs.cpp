@@ -22,6 +22,7 @@ namespace bedload {
 namespace {
 
 constexpr std::string_view ramp_parts[] = {"from", "ratio", "step", "steps"};
+constexpr double most_levels = 10'000, most_steps = 0x1p53;
 constexpr std::string_view staircases[] = {"drive.shields", "drive.speed", "drive.gradient"};
 
 std::string joined(std::string_view table, std::string_view key) { return fmt::format("{}.{}", table, key); }
@@ -45,8 +46,10 @@ class Resolver : InputList {
   void staircase(std::string_view table);
   void onset();
   void models();
+  void grains();
   void stiffness();
   void dem_step();
+  void duration();
   double rayleigh_time_of_smallest() const;
 
   const std::filesystem::path& directory_;
@@ -62,12 +65,22 @@ bool Resolver::complete() const {
 
 /// What "d" and "td" are in this case. Grains no heavier than the fluid, or without weight, have no time of their own.
 void Resolver::measure_in_grains() {
-  if (inputs.has("grains.diameter")) scales.diameter = number("grains.diameter");
-  for (const auto key : {"fluid.density", "fluid.viscosity", "grains.diameter", "grains.density", "box.gravity"})
-    if (!inputs.has(key)) return;
+  diameter_missing = !inputs.has("grains.diameter");
+  if (!diameter_missing) scales.diameter = number("grains.diameter");
+  for (const auto key : {"fluid.density", "fluid.viscosity", "grains.diameter", "grains.density", "box.gravity"}) {
+    if (inputs.has(key)) continue;
+    no_grain_time = NoGrainTime{};
+    return;
+  }
   const double d = number("grains.diameter"), s = number("grains.density") / number("fluid.density"),
                g = number("box.gravity");
-  if (s <= 1 || g <= 0) return;
+  if (s <= 1)
+    no_grain_time = {
+        "grains.density",
+        fmt::format("grains of {} kg/m3 do not settle in a fluid of {} kg/m3 and have no grain time \"td\"",
+                    number("grains.density"), number("fluid.density"))};
+  else if (g <= 0) no_grain_time = {"box.gravity", "without gravity there is no grain time \"td\""};
+  if (no_grain_time) return;
   const auto law = drag_law_named(word("models.drag"));
   scales.time = grain_time(d, s, g, terminal_speed(law, number("fluid.viscosity"), s, d, g));
 }
@@ -150,6 +163,7 @@ void Resolver::staircase(std::string_view table) {
   const auto from = joined(table, "from"), ratio = joined(table, "ratio"), step = joined(table, "step"),
              steps = joined(table, "steps");
   take(from);
+  if (!inputs.has(from)) return;
   if (!given(steps)) inputs.values[steps] = 1.0;
   else take(steps);
   if (given(ratio) && given(step))
@@ -160,6 +174,25 @@ void Resolver::staircase(std::string_view table) {
     problem(ratio, "levels must rise: the ratio of one to the one before is above 1");
   if (number(steps) > 1 && !given(ratio) && !given(step))
     problem(steps, "how the levels grow is missing", "add ratio = 1.2, or step");
+  if (number(steps) > most_levels)
+    return problem(steps, fmt::format("{:.0f} levels are too many", number(steps)),
+                   fmt::format("at most {:.0f}", most_levels));
+  const double rises = number(steps) - 1;
+  const bool finite = (!inputs.has(ratio) || std::isfinite(number(from) * std::pow(number(ratio), rises))) &&
+                      (!inputs.has(step) || std::isfinite(number(from) + rises * number(step)));
+  if (!finite) problem(steps, fmt::format("level {:.0f} is too large a number", number(steps)), "fewer steps");
+}
+
+/// Model time counts steps: beyond 2^53 of them it would stand still.
+void Resolver::duration() {
+  const auto table = staircase_of(inputs);
+  const double levels = table.empty() ? 1 : number(joined(table, "steps"));
+  const double count = levels * number("drive.dwell") / number("steps.dem");
+  if (count <= most_steps) return;
+  problem("drive.dwell",
+          fmt::format("{:.0f} times {:.3g} s are {:.3g} DEM steps, more than the {:.3g} that a clock can count", levels,
+                      number("drive.dwell"), count, most_steps),
+          "a shorter dwell, for example \"25 td\"");
 }
 
 void Resolver::onset() {
@@ -182,6 +215,11 @@ void Resolver::models() {
   } else {
     take("models.terms");
   }
+}
+
+/// Before stiffness and steps are computed from them.
+void Resolver::grains() {
+  for (const auto& p : grain_problems_of(scene_of(inputs).bed)) problem(p.parameter, p.message, p.hint);
 }
 
 void Resolver::stiffness() {
@@ -244,10 +282,10 @@ CaseInputs Resolver::run() {
   if (given("record.tracks")) take("record.tracks");
   else inputs.values["record.tracks"] = std::vector<std::uint64_t>{};
   bed();
-  if (no_problems() && complete()) {
-    stiffness();
-    if (inputs.has("grains.stiffness")) dem_step();
-  }
+  if (no_problems() && complete()) grains();
+  if (no_problems() && complete()) stiffness();
+  if (no_problems() && inputs.has("grains.stiffness")) dem_step();
+  if (no_problems() && inputs.has("steps.dem")) duration();
   return inputs;
 }
 

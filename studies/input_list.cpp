@@ -37,10 +37,11 @@ bool InputList::is_auto(std::string_view key) const {
 }
 
 void InputList::quantity(std::string_view key, const Quantity& value) {
-  if (value.grain_times != 0 && !scales.time) {
-    return problem(
-        key, fmt::format("\"{}\" counts grain times, which only grains that settle in the fluid have", value.text),
-        "heavier grains, or a time in s");
+  if (value.diameters != 0 && diameter_missing) return;
+  if (value.grain_times != 0 && no_grain_time) {
+    if (!no_grain_time->key.empty())
+      problem(no_grain_time->key, no_grain_time->why, "heavier grains, or drive.dwell and record.every in s");
+    return;
   }
   try {
     const int digits = value.grain_times != 0 ? time_digits : exact_digits;

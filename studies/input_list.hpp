@@ -40,8 +40,16 @@ class InputList {
   double number(std::string_view key) const { return inputs.number(key); }
   const std::string& word(std::string_view key) const { return inputs.word(key); }
 
+  /// Why no grain time is known: the key to blame; no key if its problem has been told.
+  struct NoGrainTime {
+    std::string_view key;
+    std::string why;
+  };
+
   CaseInputs inputs;
-  GrainScales scales;   // what "d" and "td" are, once that is known
+  GrainScales scales;              // what "d" and "td" are, once that is known
+  bool diameter_missing = false;   // told already: what counts in "d" is left out in silence
+  std::optional<NoGrainTime> no_grain_time;
 
  private:
   void quantity(std::string_view key, const Quantity&);

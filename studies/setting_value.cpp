@@ -66,7 +66,9 @@ Value ValueReader::number() const {
 
 Value ValueReader::count() const {
   if (stands_for_number()) return node.text;
-  if (node.is(StudyNode::Kind::whole) && node.whole <= largest_count) return in_range(node.real, node.real);
+  if (node.is(StudyNode::Kind::whole) && node.whole > largest_count)
+    return refuse(fmt::format("{} is too large", node.shown), fmt::format("at most {}", largest_count));
+  if (node.is(StudyNode::Kind::whole)) return in_range(node.real, node.real);
   const auto instead = key.choices.empty() ? std::string() : fmt::format(" or \"{}\"", key.choices);
   return refuse_kind("a whole number", fmt::format("write a whole number{}", instead));
 }

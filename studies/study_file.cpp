@@ -2,6 +2,8 @@
 #include "studies/study_file.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <regex>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -55,6 +57,19 @@ StudyNode tree_of(const toml::node& node) {
   return made;
 }
 
+/// What a line that is no TOML most likely lacks; empty if that is not plain.
+std::string missing_quotes(const std::string& text, int line) {
+  std::istringstream lines(text);
+  std::string found;
+  for (int n = 0; n < line; ++n) std::getline(lines, found);
+  found.resize(std::min<std::size_t>(found.size(), 200));   // std::regex recurses: a long line would overflow the stack
+  static const std::regex with_unit(R"(=\s*\[?\s*[-+]?[0-9][0-9.eE+-]*\s*[A-Za-z%](?![\w\s]*=))"),
+      word(R"(=\s*[A-Za-z_]+\s*(#|$))");
+  if (std::regex_search(found, with_unit)) return "values with a unit stand in quotes: diameter = \"0.5 mm\"";
+  if (std::regex_search(found, word)) return "words stand in quotes: kind = \"lid\"";
+  return {};
+}
+
 /// The first syntax error is reported alone, since nothing after it can be trusted.
 StudyNode parse(const std::string& text, const std::string& name) {
   try {
@@ -63,17 +78,22 @@ StudyNode parse(const std::string& text, const std::string& name) {
     const auto at = place_of(error.source());
     throw Error(ErrorKind::study_invalid,
                 fmt::format("{}:{}:{}: error: {}", name, at.line, at.column, error.description()),
-                "values with a unit stand in quotes: diameter = \"0.5 mm\"");
+                missing_quotes(text, at.line));
   }
 }
 
 void check_name(const Setting& name, Problems& problems) {
-  if (name.text.find_first_of("/\\ \t\n") == std::string::npos && name.text[0] != '.') return;
+  if (is_study_name(name.text)) return;
   problems.add(name.place, fmt::format("name: \"{}\" cannot be the name of a result directory", name.text),
                "letters, digits, - and _");
 }
 
 }   // namespace
+
+bool is_study_name(std::string_view name) {
+  const auto unfit = [](unsigned char c) { return c <= ' ' || c == 0x7f || std::strchr("/\\\"'", c); };
+  return !name.empty() && name[0] != '.' && name[0] != '-' && std::ranges::none_of(name, unfit);
+}
 
 const StudyNode* StudyNode::find(std::string_view name) const {
   const auto found = std::ranges::find(items, name, &StudyNode::key);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "studies/study.hpp"
 
@@ -23,5 +24,8 @@ CaseFile read_case_file(const std::filesystem::path&);
 /// The same from text; `name` stands in messages.
 Study parse_study(const std::string& text, const std::string& name);
 CaseFile parse_case_file(const std::string& text, const std::string& name);
+
+/// True for what can be the name of a study, hence of its result directory.
+bool is_study_name(std::string_view);
 
 }   // namespace bedload

@@ -79,7 +79,7 @@ void Reader::entry(const std::string& path, const Node& node, Settings& into, bo
 
 void Reader::unknown(const std::string& path, Place place) {
   if (const auto what = later_key(path); !what.empty())
-    return problems_.add(place, fmt::format("{}: {} are not in this version", path, what), "leave the key out");
+    return problems_.add(place, fmt::format("{} is not in this version ({})", path, what), "leave the key out");
   const auto nearest = nearest_key(path);
   problems_.add(place, fmt::format("{} is not a key of a study file", path),
                 nearest.empty() ? "docs/study_files.md lists the keys" : fmt::format("did you mean {}?", nearest));

@@ -47,8 +47,32 @@ TEST(StudyFile, ReportsASyntaxErrorWithItsPlace) {
   EXPECT_TRUE(says(complaint(with(good_study, "density = \"1000 kg/m3\"", "density = 1000 kg/m3")), "study.toml:5:"));
 }
 
+TEST(StudyFile, RemindsOfQuotesOnlyWhereTheyAreMissing) {
+  const auto hint = [](const std::string& part, const std::string& instead) {
+    try {
+      parse_study(with(good_study, part, instead), "study.toml");
+    } catch (const Error& error) {
+      return error.hint;
+    }
+    return std::string("accepted");
+  };
+  EXPECT_TRUE(says(hint("\"13 d\"", "13 d"), "values with a unit stand in quotes"));
+  EXPECT_TRUE(says(hint("\"lid\"", "lid"), "words stand in quotes"));
+  EXPECT_EQ(hint("count = 300", "count = 300\ncount = 400"), "");
+  EXPECT_EQ(hint("[bed]", "[bed"), "");
+  EXPECT_EQ(hint("ratio = 1.2,", "ratio = 1.2"), "");
+}
+
+TEST(StudyFile, BlamesAMissingKeyOnlyOnItself) {
+  EXPECT_EQ(complaint(with(good_study, "viscosity = \"1.0e-5 m2/s\"", "")),
+            "study.toml: error: fluid.viscosity is missing\nhint: docs/study_files.md shows every key with an example");
+  EXPECT_EQ(complaint(with(good_study, "diameter = [\"0.5 mm\", \"0.6 mm\"]", "")),
+            "study.toml: error: grains.diameter is missing\nhint: docs/study_files.md shows every key with an example");
+}
+
 struct Refusal {
   const char *part, *instead, *message;
+  friend void PrintTo(const Refusal& r, std::ostream* out) { *out << r.message; }
 };
 class Refused : public testing::TestWithParam<Refusal> {};
 TEST_P(Refused, WithTheReason) {
@@ -88,7 +112,18 @@ INSTANTIATE_TEST_SUITE_P(
                 "wants one of drive.shields and drive.gradient"},
         Refusal{"length = \"10 d\"", "", "study.toml: error: box.length is missing"},
         Refusal{"ratio = 1.2, ", "", "how the levels grow is missing"},
-        Refusal{"\"2000 kg/m3\"", "\"900 kg/m3\"", "only grains that settle in the fluid have"},
+        Refusal{"\"2000 kg/m3\"", "\"900 kg/m3\"",
+                "study.toml:10:12: error: grains.density: grains of 900 kg/m3 do not settle in a fluid of 1000 kg/m3"},
+        Refusal{"spread = 0.05", "spread = 0.9",
+                "study.toml:11:10: error: grains.spread: 0.9 lets the smallest grain vanish"},
+        Refusal{"steps = 12", "steps = 100000000",
+                "study.toml:24:47: error: drive.shields.steps: 100000000 levels are too many\nhint: at most 10000"},
+        Refusal{"steps = 12", "steps = 5000", "drive.shields.steps: level 5000 is too large a number"},
+        Refusal{"ratio = 1.2, steps = 12", "step = 1e306, steps = 5000", "level 5000 is too large a number"},
+        Refusal{"\"25 td\"", "\"1e30 s\"", "study.toml:25:9: error: drive.dwell: 12 times 1e+30 s are"},
+        Refusal{"count = 300", "count = 99999999999", "bed.count: 99999999999 is too large\nhint: at most 4000000000"},
+        Refusal{"[drive]", "[run]\nwall_limit = \"1 h\"\n[drive]",
+                "run.wall_limit is not in this version (a wall time limit per attempt)"},
         Refusal{"name = \"screening\"", "name = \"a/b\"", "cannot be the name of a result directory"},
         Refusal{"name = \"screening\"", "bed_only = true", "bed_only is not a key"}));
 
