@@ -1,4 +1,6 @@
 // The command line: which commands there are, what they take, how they end. The only file that includes CLI11.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -7,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "solver/state.hpp"
+#include "studies/study_keys.hpp"
 
 namespace bedload {
 
@@ -16,6 +19,13 @@ std::string version_text() {
   const auto b = build_info();
   return fmt::format("bedload {} ({}, {}), physics_version {}\ncompiler {}\nflags {}\nlibraries {}", b.version,
                      b.commit, b.build_type, physics_version, b.compiler, b.flags, b.libraries);
+}
+
+constexpr int most_workers = 4096;
+
+[[noreturn]] void not_in_this_version(const std::string& command) {
+  throw Error(ErrorKind::unavailable, fmt::format("`bedload {}` is not in this version", command),
+              "`bedload --help` lists the commands");
 }
 
 /// What the command line says, and the command that it names.
@@ -76,12 +86,17 @@ void CommandLine::study_commands() {
                    [this] { return plan_command(study_); });
   study_argument(plan);
   forms(plan);
+  plan->add_flag_callback("--probe", [] { not_in_this_version("plan --probe"); })->group("");
 
   auto* run = add("run", "start or resume; running it again is always safe", "bedload run shields.toml --cores 4",
                   [this] { return run_command(run_); });
   study_argument(run);
   run->add_option("--cores", run_.cores, "workers side by side (default: the study file's)")
-      ->check(CLI::PositiveNumber);
+      ->check([](const std::string& given) {
+        int workers = 0;
+        const bool fits = CLI::detail::lexical_cast(given, workers) && workers >= 1 && workers <= most_workers;
+        return fits ? "" : fmt::format("{} is not a number of workers from 1 to {}", given, most_workers);
+      });
   run->add_option("--only", study_.cases, "these cases: id prefixes, labels, globs of labels");
   run->add_flag("--prepare", run_.prepare, "make the case directories and stop");
   run->add_flag("--rescan", run_.rescan, "rebuild the database from the case directories first");
@@ -149,10 +164,7 @@ void CommandLine::later_commands() {
   for (const char* name : {"validate", "trade", "view", "prune", "doctor"}) {
     auto* command = app.add_subcommand(name, "not in this version")->group("");
     command->allow_extras();
-    command->callback([name] {
-      throw Error(ErrorKind::unavailable, fmt::format("`bedload {}` is not in this version", name),
-                  "`bedload --help` lists the commands");
-    });
+    command->callback([name] { not_in_this_version(name); });
   }
 }
 
@@ -167,13 +179,31 @@ CommandLine::CommandLine() {
   later_commands();
 }
 
+/// What CLI11 refused, in the words of all other errors.
+Error usage_error(const CLI::App& app, const CLI::ParseError& refused, int argc, char** argv) {
+  if (const auto named = app.get_subcommands(); !named.empty())
+    return {ErrorKind::usage, refused.what(),
+            fmt::format("`bedload {} --help` shows what it takes", named[0]->get_name())};
+  std::string commands;
+  for (const auto* one : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (!one->get_group().empty()) commands += (commands.empty() ? "" : "|") + one->get_name();
+  const auto* word = std::find_if(argv + 1, argv + argc, [](const char* a) { return a[0] != '-'; });
+  if (word == argv + argc) return {ErrorKind::usage, refused.what(), "`bedload --help` lists the commands"};
+  const auto nearest = nearest_word(*word, commands);
+  return {ErrorKind::usage, fmt::format("`bedload {}` is not a command", *word),
+          nearest.empty() ? "`bedload --help` lists the commands" : fmt::format("did you mean `bedload {}`?", nearest)};
+}
+
 int run(int argc, char** argv) {
   CommandLine line;
   try {
     line.app.parse(argc, argv);
     return line.code;
   } catch (const CLI::ParseError& e) {
-    return line.app.exit(e) == 0 ? 0 : static_cast<int>(ErrorKind::usage);   // CLI11's own codes are 100-109
+    if (e.get_exit_code() == 0) return line.app.exit(e);   // --help, --version
+    const auto error = usage_error(line.app, e, argc, argv);
+    log_error(error);
+    return error.exit_code();
   } catch (const Error& e) {
     log_error(e);
     return e.exit_code();

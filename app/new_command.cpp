@@ -4,6 +4,7 @@
 #include "app/commands.hpp"
 #include "base/durable_file.hpp"
 #include "base/error.hpp"
+#include "studies/study_file.hpp"
 
 namespace bedload {
 
@@ -72,8 +73,12 @@ checkpoint = {{ every = "5 min", keep = 2 }}
 }   // namespace
 
 int new_command(const std::string& name) {
-  const std::filesystem::path file = name.ends_with(".toml") ? name : name + ".toml";
-  if (!publish_once(file, fmt::format(fmt::runtime(study_template), file.stem().string())))
+  const auto title = name.ends_with(".toml") ? name.substr(0, name.size() - 5) : name;
+  if (!is_study_name(title))
+    throw Error(ErrorKind::usage, fmt::format("\"{}\" cannot be the name of a study", name),
+                "letters, digits, - and _; it is written into the current directory");
+  const std::filesystem::path file = title + ".toml";
+  if (!publish_once(file, fmt::format(fmt::runtime(study_template), title)))
     throw Error(ErrorKind::usage, fmt::format("{} exists already", file.string()), "choose another name");
   fmt::print("{}\n", file.string());
   return 0;
