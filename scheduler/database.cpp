@@ -71,6 +71,24 @@ int allow_reading_only(void*, int action, const char*, const char* function, con
   }
 }
 
+/// SQLite runs the first statement of a text and says nothing of the rest. A text that it cannot read is left for it to
+/// refuse.
+void refuse_all_but_one_statement(sqlite3* database, std::string_view sql) {
+  int statements = 0;
+  for (const char *rest = sql.data(), *const end = sql.data() + sql.size(); rest < end && statements < 2;) {
+    sqlite3_stmt* statement = nullptr;
+    const int code = sqlite3_prepare_v2(database, rest, static_cast<int>(end - rest), &statement, &rest);
+    statements += statement != nullptr || code != SQLITE_OK;
+    sqlite3_finalize(statement);
+    if (code != SQLITE_OK) break;
+  }
+  if (statements == 1) return;
+  throw Error(
+      ErrorKind::usage,
+      statements == 0 ? "the query is empty" : "the query has more than one statement, and one is run at a time",
+      "a query is one statement, such as \"SELECT * FROM threshold_curve\"");
+}
+
 Value value_of(const SQLite::Column& column) {
   if (column.isNull()) return std::monostate{};
   if (column.isInteger()) return column.getInt64();
@@ -154,6 +172,7 @@ void Database::execute(std::string_view sql, const std::vector<Value>& parameter
 }
 
 Rows Database::query(std::string_view sql, const std::vector<Value>& parameters) const try {
+  refuse_all_but_one_statement(connection_->handle.getHandle(), sql);
   SQLite::Statement statement(connection_->handle, std::string(sql));
   bind(statement, parameters);
   Rows result;

@@ -26,6 +26,7 @@ class Database {
   ~Database();
 
   void execute(std::string_view sql, const std::vector<Value>& parameters = {});
+  /// One statement: an empty text, or a second statement, is Error usage.
   Rows query(std::string_view sql, const std::vector<Value>& parameters = {}) const;
 
   /// RAII: rolls back unless committed.

@@ -61,6 +61,15 @@ TEST_F(StudyDatabase, LetsQueriesReadAndNothingElse) {
   EXPECT_EQ(reader.query("SELECT a FROM t").rows.size(), 1u);
 }
 
+TEST_F(StudyDatabase, RunsExactlyOneStatementOfAQuery) {
+  const Database database(file_, Database::Mode::write);
+  for (const char* sql :
+       {"", "  ", ";", "-- nothing", "SELECT 1; SELECT 2", "SELECT 1; nonsense", "SELECT 1;; SELECT 2"})
+    EXPECT_EQ(refusal([&] { database.query(sql); }), ErrorKind::usage) << sql;
+  for (const char* sql : {"SELECT 1", "SELECT 1;", "SELECT 1 ; -- and no more\n", "/* first */ SELECT 1"})
+    EXPECT_EQ(database.query(sql).rows.size(), 1u) << sql;
+}
+
 TEST_F(StudyDatabase, RefusesTheFileOfANewerVersion) {
   Database(file_, Database::Mode::write).execute("PRAGMA user_version = 2");
   EXPECT_EQ(refusal([&] { Database(file_, Database::Mode::write); }), ErrorKind::corrupt);
