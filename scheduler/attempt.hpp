@@ -41,10 +41,10 @@ struct Attempt {
   std::string start, end;   // UTC, ISO 8601; end is empty while it runs
   Cause cause = Cause::running;
   std::string message;                      // of the error that ended it
-  std::optional<std::uint64_t> from_step;   // of the checkpoint it continued (0 = from the bed); unknown until read
+  std::optional<std::uint64_t> from_step;   // of the checkpoint it continued or bed it began on; unknown until read
   std::optional<std::uint64_t> step;        // reached; after a crash, that of the last heartbeat
-  double core_seconds = 0;
-  std::string version, compiler;   // of the bedload that ran
+  double core_seconds = 0;                  // CPU time; after a crash, that of the last heartbeat
+  std::string version, compiler;            // of the bedload that ran
 };
 
 /// Claims the next number, filled in for this process and this moment. The caller holds the case's lock; where network

@@ -23,7 +23,7 @@ void write_heartbeat(const std::filesystem::path& directory, const Heartbeat& h)
                      {"holds", h.holds},
                      {"shields", h.shields},
                      {"steps_per_second", h.steps_per_second},
-                     {"wall_time", h.wall_time}};
+                     {"core_seconds", h.core_seconds}};
   publish_unsynced(directory / "status.json", json.dump() + "\n");
 } catch (const std::exception&) {   // the next one may get through
 }
@@ -40,7 +40,7 @@ std::optional<Heartbeat> read_heartbeat(const std::filesystem::path& directory) 
   h.holds = json.value("holds", h.holds);
   h.shields = json.value("shields", h.shields);
   h.steps_per_second = json.value("steps_per_second", h.steps_per_second);
-  h.wall_time = json.value("wall_time", h.wall_time);
+  h.core_seconds = json.value("core_seconds", h.core_seconds);
   return h;
 } catch (const std::exception&) {
   return std::nullopt;

@@ -18,7 +18,7 @@ struct Heartbeat {
   int hold = 0, holds = 0;       // this step of the ramp, counted from 1, of how many
   double shields = 0;            // imposed now [-]
   double steps_per_second = 0;   // wall seconds
-  double wall_time = 0;          // of this attempt so far [s]
+  double core_seconds = 0;       // CPU time of this attempt so far
 
   /// Of the planned time; 0 where nothing is planned.
   double fraction() const { return planned_time > 0 ? std::clamp(time / planned_time, 0.0, 1.0) : 0; }

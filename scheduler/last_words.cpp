@@ -10,7 +10,7 @@ void close_for_the_dead(const std::filesystem::path& directory, Attempt& attempt
   const auto heartbeat = read_heartbeat(directory);
   if (heartbeat && heartbeat->pid == attempt.pid) {   // else it is of an attempt before
     attempt.step = heartbeat->step;
-    attempt.core_seconds = heartbeat->wall_time;
+    attempt.core_seconds = heartbeat->core_seconds;
   }
   attempt.cause = cause;
   attempt.message = message;

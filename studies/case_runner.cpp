@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <ctime>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,13 @@ constexpr double heartbeat_interval = 1;   // wall time [s]
 constexpr double hopeless_overlap = 0.5;   // of a contact, per diameter: grains have passed through each other
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// CPU time of this process [s]: on a machine that is shared, less than the time that passes.
+double cpu_seconds() {
+  struct timespec spent {};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &spent);
+  return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
+}
 
 /// Why a run cannot go on after such a step; empty if it can.
 std::string ailment(const StepHealth& health) {
@@ -69,7 +77,7 @@ class Worker {
   State state_;
   Attempt attempt_;
   Performance performance_;
-  double began_ = now(), last_beat_ = 0, last_checkpoint_ = 0;
+  double began_ = now(), cpu_began_ = cpu_seconds(), last_beat_ = 0, last_checkpoint_ = 0;
   std::uint64_t first_step_ = 0;
   std::uint64_t published_step_ = 0;
   bool requested_ = false;
@@ -114,7 +122,7 @@ int Worker::run() {
     close_attempt(directory_, attempt_, Experiment::finished(state_) ? Cause::finished : Cause::stopped);
     return code;
   } catch (const Error& error) {
-    attempt_.core_seconds = now() - began_;
+    attempt_.core_seconds = cpu_seconds() - cpu_began_;
     if (error.kind != ErrorKind::fenced) close_attempt(directory_, attempt_, cause_of(error.kind), error.what());
     throw;
   }
@@ -162,7 +170,7 @@ void Worker::beat() {
   const auto& search = state_.search;
   const double wall = last_beat_ - began_;
   attempt_.step = state_.clock.step;
-  attempt_.core_seconds = wall;
+  attempt_.core_seconds = cpu_seconds() - cpu_began_;
   Heartbeat beat;
   beat.pid = ::getpid();
   beat.step = state_.clock.step;
@@ -173,7 +181,7 @@ void Worker::beat() {
   beat.holds = static_cast<int>(case_.scene.drive.levels.size());
   beat.shields = search.shields;
   beat.steps_per_second = static_cast<double>(state_.clock.step - first_step_) / wall;
-  beat.wall_time = wall;
+  beat.core_seconds = attempt_.core_seconds;
   write_heartbeat(directory_, beat);
   requested_ = read_request(directory_).has_value();
 }

@@ -9,6 +9,7 @@
 #include "base/durable_file.hpp"
 #include "scheduler/attempt.hpp"
 #include "scheduler/heartbeat.hpp"
+#include "scheduler/last_words.hpp"
 #include "scheduler/request.hpp"
 #include "tests/scheduler/temporary_directory.hpp"
 
@@ -105,6 +106,21 @@ TEST(Heartbeats, AreReadAsFarAsTheyGo) {
 }
 
 TEST(Heartbeats, ThatCannotBeWrittenEndNothing) { write_heartbeat("/no/such/directory", {}); }
+
+TEST(LastWords, OfAWorkerAreThoseOfItsLastHeartbeat) {
+  const TemporaryDirectory directory;
+  Attempt attempt = open_attempt(directory.path());
+  Heartbeat h;
+  h.pid = attempt.pid;
+  h.step = 7;
+  h.core_seconds = 33.25;
+  write_heartbeat(directory.path(), h);
+  close_for_the_dead(directory.path(), attempt, Cause::killed, "found dead");
+  const Attempt closed = read_attempts(directory.path()).at(0);
+  EXPECT_EQ(closed.step, 7u);
+  EXPECT_EQ(closed.core_seconds, 33.25);
+  EXPECT_EQ(closed.cause, Cause::killed);
+}
 
 TEST(Requests, StandUntilTheyAreCleared) {
   const TemporaryDirectory directory;
