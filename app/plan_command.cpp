@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/tables.hpp"
 #include "base/log.hpp"
+#include "scheduler/bed_sharing.hpp"
 #include "scheduler/progress.hpp"
 #include "solver/required_models.hpp"
 #include "studies/case_entry.hpp"
@@ -31,7 +32,7 @@ std::vector<CaseEntry> known_cases(const fs::path& results) {
 
 Rows case_rows(const Plan& plan) {
   Rows rows{{"case", "label", "plan", "grains", "cells", "young_modulus_pa", "dem_step_s", "fluid_step_s",
-             "grain_time_s", "galileo", "core_hours_at_most"},
+             "grain_time_s", "galileo", "core_hours"},
             {}};
   for (const auto& c : plan.cases) {
     const auto& scene = c.one.scene;
@@ -86,19 +87,24 @@ void print_warnings(const Plan& plan) {
 void print_summary(const Study& study, const Plan& plan, const fs::path& results, int cores) {
   const auto count = [&](Fate fate) { return std::ranges::count(plan.cases, fate, &PlannedCase::fate); };
   double core_seconds = 0, bytes = 0;
-  for (const auto& c : plan.cases) {
-    if (!c.done) core_seconds += predicted_cost(c.one.scene).core_seconds;
-    bytes += predicted_cost(c.one.scene).bytes;
-  }
+  const auto add = [&](const Cost& cost, bool done) {
+    if (!done) core_seconds += cost.core_seconds;
+    bytes += cost.bytes;
+  };
+  for (const auto& c : plan.cases) add(predicted_cost(c.one.scene), c.done);
+  for (const auto& bed : plan.beds) add(predicted_cost(scene_of(bed)), has_bed(bed_directory(results, case_id(bed))));
   const auto done = std::ranges::count(plan.cases, true, &PlannedCase::done);
   fmt::print("{}: {} case{} ({} new, {} kept, {} extended; {} done), {} dropped, {} beds; results in {}\n", study.name,
              plan.cases.size(), plan.cases.size() == 1 ? "" : "s", count(Fate::fresh), count(Fate::kept),
              count(Fate::extended), done, plan.dropped.size(), plan.beds.size(), results.string());
-  fmt::print("at most {:.3g} core-hours (a ramp ends two steps after onset), {} on {} cores; {:.1f} MB on disk\n\n",
-             core_seconds / 3600,
-             duration_text(core_seconds /
-                           std::max<double>(1, std::min<double>(cores, static_cast<double>(plan.cases.size())))),
-             cores, bytes / 1e6);
+  fmt::print(
+      "about {:.2g} core-hours for whole ramps (a ramp ends two steps after onset), about {} on {} cores; about {:.2g} "
+      "MB "
+      "on disk\n\n",
+      core_seconds / 3600,
+      duration_text(core_seconds /
+                    std::max<double>(1, std::min<double>(cores, static_cast<double>(plan.cases.size())))),
+      cores, bytes / 1e6);
 }
 
 /// The case in the study file as it stands, or one that left it.

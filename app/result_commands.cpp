@@ -1,12 +1,14 @@
 // `bedload curve`, `query`, `report`: results out of the database.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
 #include "app/tables.hpp"
 #include "base/durable_file.hpp"
+#include "base/error.hpp"
 #include "base/log.hpp"
 #include "checkpoint/checkpoint_series.hpp"
 #include "scheduler/attempt.hpp"
@@ -32,16 +34,28 @@ BedView view_of(const CaseEntry& entry, const CaseDirectory& one, State state) {
           .speed_scale = std::sqrt(std::max(0.0, reduced_gravity) * bed.grains.diameter)};
 }
 
-/// The first cases that have a checkpoint, as they stand in it.
+/// A case as it stands in its newest whole checkpoint; nothing if it has none.
+std::optional<BedView> view_in(const std::filesystem::path& directory, const CaseEntry& entry) try {
+  if (!std::filesystem::exists(directory / "case.toml")) return {};
+  bool broken = false;
+  auto state = newest_whole(directory, [&](const std::string& line) {
+    broken = true;
+    log_warning(line);
+  });
+  if (!state && broken) log_warning(fmt::format("the report has no picture of {}", entry.label));
+  if (!state || state->grains.size() == 0) return {};
+  return view_of(entry, read_case_directory(directory), std::move(*state));
+} catch (const Error& error) {   // the rest of the report rests on the database
+  log_warning(fmt::format("the report has no picture of {}: {}", entry.label, error.what()));
+  return {};
+}
+
+/// The first cases that have a checkpoint.
 std::vector<BedView> views(const std::vector<CaseEntry>& cases, const std::filesystem::path& results) {
   std::vector<BedView> made;
   for (const auto& entry : cases) {
     if (entry.is_bed || !entry.in_study || made.size() >= most_pictures) continue;
-    const auto directory = results / entry.directory;
-    if (!std::filesystem::exists(directory / "case.toml")) continue;
-    auto state = CheckpointSeries(directory, 2, [](const std::string& line) { log_warning(line); }).newest();
-    if (state && state->grains.size() > 0)
-      made.push_back(view_of(entry, read_case_directory(directory), std::move(*state)));
+    if (auto view = view_in(results / entry.directory, entry)) made.push_back(std::move(*view));
   }
   return made;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "base/durable_file.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/units.hpp"
@@ -38,6 +39,14 @@ std::vector<CaseEntry> named_cases(const StudyOptions& options, const StudyPlace
     for (auto& entry : matching_cases(known, word)) cases.push_back(std::move(entry));
   std::erase_if(cases, [](const CaseEntry& entry) { return !entry.in_study; });
   return cases;
+}
+
+/// Beds are stopped with the whole study: other cases may wait for them.
+std::vector<CaseEntry> cases_to_stop(const StudyOptions& options, const StudyPlace& place) {
+  if (!options.cases.empty()) return named_cases(options, place);
+  auto all = read_cases(open_results(place));
+  std::erase_if(all, [](const CaseEntry& entry) { return !entry.is_bed && !entry.in_study; });
+  return all;
 }
 
 }   // namespace
@@ -77,16 +86,30 @@ int case_command(const std::string& directory, const std::optional<std::string>&
   return run_case(request);
 }
 
-/// Leaves a word in the case directories: the workers read it at their next heartbeat.
+/// Leaves a word in the directories: workers read it at their next heartbeat, a scheduler before it starts a case.
 int stop_command(const StudyOptions& options) {
   const auto place = find_study(options.study, options.out);
-  int asked = 0;
-  for (const auto& entry : named_cases(options, place)) {
-    if (entry.state == CaseState::done || entry.state == CaseState::failed) continue;
-    write_request(place.directory / entry.directory, Request::stop);
-    ++asked;
+  const bool scheduled = FileLock::holder(place.directory / "lock").has_value();
+  int workers = 0, waiting = 0;
+  for (const auto& entry : cases_to_stop(options, place)) {
+    const auto directory = place.directory / entry.directory;
+    const bool at_work = FileLock::holder(directory / "lock").has_value();
+    const bool unfinished =
+        entry.state == CaseState::pending || entry.state == CaseState::running;   // or about to lock
+    const bool waits = scheduled && !at_work && unfinished;
+    if (!at_work && !waits) continue;
+    write_request(directory, Request::stop);
+    workers += at_work;
+    waiting += waits;
   }
-  log_note(fmt::format("{} cases are asked to write a checkpoint and stop; the next `bedload run` goes on", asked));
+  if (workers + waiting == 0) {
+    log_note(fmt::format("nothing of {} is at work", place.name));
+    return 0;
+  }
+  log_note(
+      fmt::format("{} at work asked to write a checkpoint and stop, {} waiting kept from starting; "
+                  "the next `bedload run` goes on",
+                  workers, waiting));
   return 0;
 }
 

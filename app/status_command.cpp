@@ -43,8 +43,7 @@ Standing standing_of(const CaseEntry& entry, const fs::path& results) {
   s.worker = FileLock::holder(directory / "lock");
   s.beat = read_heartbeat(directory);
   if (s.beat && s.beat->planned_time > 0) s.fraction = std::min(1.0, s.beat->time / s.beat->planned_time);
-  if (!entry.is_bed)
-    s.core_hours_left = predicted_cost(read_case_directory(directory).scene).core_seconds * (1 - s.fraction) / 3600;
+  s.core_hours_left = predicted_cost(read_case_directory(directory).scene).core_seconds * (1 - s.fraction) / 3600;
   return s;
 }
 
@@ -55,8 +54,7 @@ std::string state_in_words(const Standing& s) {
 }
 
 Rows case_rows(const std::vector<Standing>& all) {
-  Rows rows{
-      {"case", "state", "hold", "theta", "percent", "steps_per_s", "worker", "core_hours_left_at_most", "message"}, {}};
+  Rows rows{{"case", "state", "hold", "theta", "percent", "steps_per_s", "worker", "core_hours_left", "message"}, {}};
   for (const auto& s : all) {
     if (s.entry->is_bed && s.entry->state == CaseState::done) continue;
     const bool ramp = s.beat && s.beat->phase == "ramp" && s.entry->state != CaseState::done;
@@ -75,16 +73,16 @@ std::string summary_of(const std::vector<Standing>& all, const StudyPlace& place
   double left = 0;
   int workers = 0, cases = 0;
   for (const auto& s : all) {
+    left += s.core_hours_left;
     if (s.entry->is_bed) continue;
     ++cases, ++counts[state_in_words(s)];
-    left += s.core_hours_left;
     workers += s.worker.has_value();
   }
   std::string text = fmt::format("{}: {} case{}:", place.name, cases, cases == 1 ? "" : "s");
   for (const auto& [state, count] : counts) text += fmt::format(" {} {},", count, state);
   text.back() = ';';
-  text += fmt::format(" {:.3g} core-hours spent, at most {:.3g} left", core_hours_spent, left);
-  if (workers > 0) text += fmt::format(", at most {} with {} at work", duration_text(3600 * left / workers), workers);
+  text += fmt::format(" {:.3g} core-hours spent, about {:.2g} left", core_hours_spent, left);
+  if (workers > 0) text += fmt::format(", about {} with {} at work", duration_text(3600 * left / workers), workers);
   return text;
 }
 

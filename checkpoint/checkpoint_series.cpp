@@ -63,6 +63,31 @@ bool is_broken(const Error& error) {
   return error.kind == ErrorKind::corrupt && dynamic_cast<const WrittenByNewer*>(&error) == nullptr;
 }
 
+/// What `read` makes of the newest checkpoint that is whole, with nothing changed on disk.
+template <class Made, class Read>
+std::optional<Made> first_whole(const fs::path& directory, const Read& read, const CheckpointSeries::Say& say) {
+  constexpr int listings = 10;   // far more than a worker can outpace; bounded for links that lead nowhere
+  for (int n = 0; n < listings; ++n) {
+    std::vector<std::string> broken;
+    std::optional<Made> made;
+    bool vanished = false;   // removed or put aside between our listing and our reading: there may be a newer one now
+    for (const CheckpointFile& file : checkpoints_in(directory)) {
+      try {
+        made = read(file.path);
+        break;
+      } catch (const Error& error) {
+        if (error.kind == ErrorKind::not_found) vanished = true;
+        else if (is_broken(error)) broken.emplace_back(error.what());
+        else throw;
+      }
+    }
+    if (!made && vanished) continue;
+    for (const std::string& line : broken) say(line);
+    return made;
+  }
+  return {};
+}
+
 }   // namespace
 
 CheckpointSeries::CheckpointSeries(fs::path directory, int keep, Say say)
@@ -97,20 +122,16 @@ void CheckpointSeries::publish(const State& state) {
   remove_stray_temporaries(directory_);
 }
 
+std::optional<State> newest_whole(const fs::path& directory, const CheckpointSeries::Say& say) {
+  return first_whole<State>(directory, read_checkpoint, say);
+}
+
 std::optional<CheckpointPosition> newest_position(const fs::path& directory) {
-  bool vanished = false;
-  for (const CheckpointFile& file : checkpoints_in(directory)) {
-    try {
-      const CheckpointHeader header = header_from_image(read_file(file.path), file.path.string());
-      return CheckpointPosition{header.step, header.phase == Search::finished};
-    } catch (const Error& error) {
-      vanished = vanished || error.kind == ErrorKind::not_found;
-      if (!is_broken(error) && error.kind != ErrorKind::not_found) throw;
-    }
-  }
-  // Its worker removed or put aside a file between our listing and our reading: there may be a newer one now.
-  if (vanished) return newest_position(directory);
-  return {};
+  const auto position_in = [](const fs::path& file) {
+    const CheckpointHeader header = header_from_image(read_file(file), file.string());
+    return CheckpointPosition{header.step, header.phase == Search::finished};
+  };
+  return first_whole<CheckpointPosition>(directory, position_in, [](const std::string&) {});
 }
 
 }   // namespace bedload

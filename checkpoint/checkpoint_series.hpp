@@ -33,8 +33,12 @@ class CheckpointSeries {
   Say say_;
 };
 
-/// Step and finished flag of the newest whole checkpoint, without loading it all and without changing anything on disk.
-/// Nothing if there is no whole one.
+// For whoever does not hold the case's lock: these change nothing on disk. Broken checkpoints are skipped; nothing is
+// returned if there is no whole one. Error corrupt (WrittenByNewer) if the newest was written by a newer bedload.
+
+/// The newest whole checkpoint. `say` is told of each broken one that was passed over.
+std::optional<State> newest_whole(const std::filesystem::path& directory, const CheckpointSeries::Say& say);
+/// Its step and finished flag, without loading it all.
 std::optional<CheckpointPosition> newest_position(const std::filesystem::path& directory);
 
 }   // namespace bedload

@@ -57,7 +57,7 @@ std::string summary(const Progress& p) {
   if (p.failed > 0) text += fmt::format(", {} failed", p.failed);
   if (p.stopped > 0) text += fmt::format(", {} stopped", p.stopped);
   if (p.stopping) text += ", stopping";
-  else if (p.left > 0) text += fmt::format(", at most {} left", duration_text(p.left));
+  else if (p.left > 0) text += fmt::format(", about {} left", duration_text(p.left));
   return text;
 }
 

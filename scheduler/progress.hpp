@@ -17,7 +17,7 @@ struct RunningCase {
   double fraction = 0;   // of the planned model time
   double steps_per_second = 0;
   double silent = 0;   // since its last heartbeat [s]
-  double left = -1;    // at most, wall seconds; negative = unknown
+  double left = -1;    // about, wall seconds; negative = unknown
 };
 
 struct Progress {
@@ -25,7 +25,7 @@ struct Progress {
   int beds = 0, beds_done = 0;                        // those that unfinished cases wait for
   std::vector<RunningCase> running;
   double elapsed = 0;   // since this run began [s]
-  double left = -1;     // at most, wall seconds; negative = unknown
+  double left = -1;     // about, wall seconds; negative = unknown
   bool stopping = false;
 };
 
@@ -68,7 +68,7 @@ class ProgressPrinter : public ProgressSink {
   double last_line_;    // when the last line of progress was due, on the clock [s]
 };
 
-/// "3 of 12 cases done, 2 at work, 1 failed, at most 14 min left"
+/// "3 of 12 cases done, 2 at work, 1 failed, about 14 min left"
 std::string summary(const Progress&);
 /// 45 s, 12 min, 3.4 h, 2.1 d
 std::string duration_text(double seconds);

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
+#include "base/log.hpp"
 #include "checkpoint/checkpoint_series.hpp"
 #include "solver/bed/incipient_motion.hpp"
 #include "studies/case_file.hpp"
@@ -30,7 +30,7 @@ bool same_end(const CaseInputs& a, const CaseInputs& b) {
 }
 
 bool ramp_goes_on(const fs::path& directory, const Scene& scene) {
-  const auto state = CheckpointSeries(directory, 2, [](const std::string&) {}).newest();
+  const auto state = newest_whole(directory, [](const std::string& line) { log_warning(line); });
   return state && !ramp_is_over(state->record, scene.onset, scene.drive.levels.size());
 }
 
@@ -75,17 +75,20 @@ Plan make_plan(std::vector<Case> cases, const std::vector<CaseEntry>& known, con
 }
 
 Cost predicted_cost(const Scene& scene) {
-  constexpr double grain_steps_per_second = 6e6, seconds_per_cell_step = 180e-9;   // docs/performance.md
-  constexpr double bytes_per_grain = 121, contacts_per_grain = 3, bytes_per_contact = 32, bytes_per_cell = 32;
+  constexpr double grain_steps_per_second = 3.5e6, seconds_per_cell_step = 300e-9;   // coupled; packing is no slower
+  constexpr double packing_steps = 8000;   // DEM steps: 6600 to 9500 for the beds of the quickstart
+  constexpr double bytes_per_grain = 121, contacts_per_grain = 3, bytes_per_contact = 32, bytes_per_cell = 32,
+                   bytes_per_sample = 1250;   // in two checkpoints, and as a row of the database
   const double grains = static_cast<double>(scene.bed.source.count),
                cells = static_cast<double>(scene.grid.cell_count());
-  const double time = scene.drive.dwell * static_cast<double>(scene.drive.levels.size());
+  const double checkpoint =
+      grains * (bytes_per_grain + contacts_per_grain * bytes_per_contact) + cells * bytes_per_cell;
+  if (scene.bed_only) return {grains * packing_steps / grain_steps_per_second, 2 * checkpoint};
+  const double time = scene.drive.dwell * static_cast<double>(std::max<std::size_t>(1, scene.drive.levels.size()));
   Cost cost;
   cost.core_seconds = grains * time / scene.bed.dem_step / grain_steps_per_second +
                       cells * time / scene.steps.fluid_interval * seconds_per_cell_step;
-  const double checkpoint =
-      grains * (bytes_per_grain + contacts_per_grain * bytes_per_contact) + cells * bytes_per_cell;
-  cost.bytes = 3 * checkpoint;
+  cost.bytes = 2 * checkpoint + time / scene.record.every * bytes_per_sample;
   return cost;
 }
 

@@ -34,10 +34,10 @@ struct Plan {
 /// `known`: what the database has (nothing for a study that was never run).
 Plan make_plan(std::vector<Case> cases, const std::vector<CaseEntry>& known, const std::filesystem::path& results);
 
-/// What one case costs by the rates measured on one core of a workstation.
+/// What one case, or one bed, costs: about, by rates measured on one core of a workstation.
 struct Cost {
-  double core_seconds = 0;   // to the end of its ramp; it may end earlier
-  double bytes = 0;          // of two checkpoints and a bed
+  double core_seconds = 0;   // CPU time to the end of its ramp, though it may end earlier; of a bed, to settle
+  double bytes = 0;          // of a case: two checkpoints and its rows; of a bed: its checkpoint and bed.h5
 };
 Cost predicted_cost(const Scene&);
 

@@ -170,5 +170,47 @@ TEST_F(CheckpointSeriesOnDisk, TellsTheNewestPositionAndTouchesNothing) {
   EXPECT_EQ(names(), (std::set<std::string>{"ck-10.h5", "ck-20.h5"}));
 }
 
+TEST_F(CheckpointSeriesOnDisk, IsReadByOthersWithoutAChange) {
+  publish_steps({10, 20});
+  flip_a_byte("ck-20.h5");
+  std::vector<std::string> broken;
+  const auto say = [&](const std::string& what) { broken.push_back(what); };
+  EXPECT_EQ(state_digest(newest_whole(dir(), say).value()), state_digest(state_at(10)));
+  ASSERT_EQ(broken.size(), 1u);
+  EXPECT_NE(broken[0].find("ck-20.h5"), std::string::npos) << broken[0];
+  flip_a_byte("ck-10.h5");
+  EXPECT_FALSE(newest_whole(dir(), say));
+  EXPECT_EQ(broken.size(), 3u);
+  EXPECT_EQ(names(), (std::set<std::string>{"ck-10.h5", "ck-20.h5"}));
+}
+
+TEST_F(CheckpointSeriesOnDisk, CanBeReadThoughAListedFileIsGone) {
+  publish_steps({10});
+  fs::create_symlink("gone", dir() / "ck-20.h5");   // listed, and not there when it is read
+  EXPECT_EQ(newest_whole(dir(), {})->clock.step, 10u);
+  EXPECT_EQ(newest_position(dir())->step, 10u);
+  fs::remove(dir() / "ck-10.h5");
+  EXPECT_FALSE(newest_whole(dir(), {}));
+  EXPECT_FALSE(newest_position(dir()));
+}
+
+TEST_F(CheckpointSeriesOnDisk, IsReadWhileItsWorkerPublishesAndPrunes) {
+  publish_steps({1});
+  const pid_t worker = ::fork();
+  if (worker == 0) {
+    CheckpointSeries series(dir(), 1, {});   // each publication removes the one before
+    for (std::uint64_t step = 2; step <= 40; ++step) series.publish(state_at(step));
+    ::_exit(0);
+  }
+  std::uint64_t last = 1;
+  while (::waitpid(worker, nullptr, WNOHANG) == 0) {
+    const auto newest = newest_whole(dir(), [](const std::string& what) { ADD_FAILURE() << what; });
+    ASSERT_TRUE(newest) << "nothing was found after step " << last;
+    EXPECT_GE(newest->clock.step, last);
+    last = newest->clock.step;
+  }
+  EXPECT_EQ(newest_whole(dir(), {})->clock.step, 40u);
+}
+
 }   // namespace
 }   // namespace bedload

@@ -1,8 +1,11 @@
 // The life of a study: run, run again, changed, extended, moved, rebuilt.
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
 #include <algorithm>
 
+#include "base/durable_file.hpp"
 #include "scheduler/attempt.hpp"
 #include "tests/end_to_end/bedload_program.hpp"
 #include "tests/end_to_end/tiny_study.hpp"
@@ -185,6 +188,76 @@ TEST_F(StudyLife, WritesAReport) {
   fs::remove(here() / "tiny" / "report.html");
   EXPECT_EQ(bedload(here(), {"report", "tiny.toml"}).out, "tiny/report.html\n");
   EXPECT_NE(contents(here() / "tiny" / "report.html").find("<svg"), std::string::npos);
+}
+
+void damage(const fs::path& file) {
+  std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
+  bytes.seekp(5000).write("damaged", 7);
+}
+
+std::vector<fs::path> checkpoints_of(const fs::path& directory) {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(directory))
+    if (entry.path().filename().string().starts_with("ck-")) found.push_back(entry.path());
+  return found;
+}
+
+TEST_F(StudyLife, ReportsAndInspectsDamagedCheckpointsWithoutTouchingThem) {
+  ASSERT_EQ(run(small_study).code, 0);
+  const auto directory = here() / "tiny" / "by-label" / "rho3000-s1";
+  const auto files = checkpoints_of(directory);
+  for (const auto& file : files) damage(file);
+  const auto report = bedload(here(), {"report", "tiny.toml"});
+  EXPECT_EQ(report.code, 0) << report.err;
+  EXPECT_NE(report.err.find("no picture of rho3000-s1"), std::string::npos) << report.err;
+  const auto inspected = bedload(here(), {"inspect", "tiny/by-label/rho3000-s1"});
+  EXPECT_EQ(inspected.code, 76) << inspected.err;
+  for (const auto& file : files) {
+    EXPECT_TRUE(fs::exists(file)) << file;
+    EXPECT_NE(inspected.err.find(file.filename().string()), std::string::npos) << inspected.err;
+  }
+}
+
+TEST_F(StudyLife, CountsTheCpuTimeOfAWorkerAndNotTheTimeThatItStoodStill) {
+  const auto spent = [] {   // by the children that were waited for, and theirs
+    struct rusage usage {};
+    ::getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](const timeval& t) {
+      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  };
+  std::ofstream(here() / "tiny.toml") << with(small_study, "dwell = \"1 td\"", "dwell = \"30 td\"");
+  const double before = spent();
+  Process scheduler(here(), {"run", "tiny.toml", "--cores", "2"});
+  const auto directory = here() / "tiny" / "by-label" / "rho3000-s1";
+  for (int n = 0; n < 1000 && !fs::exists(directory / "status.json"); ++n) ::usleep(10'000);
+  const auto worker = FileLock::holder(directory / "lock");
+  ASSERT_TRUE(worker);
+  ::kill(static_cast<pid_t>(worker->pid), SIGSTOP);
+  ::usleep(1'500'000);   // the claim is about time that passes
+  ::kill(static_cast<pid_t>(worker->pid), SIGCONT);
+  ::kill(scheduler.pid(), SIGINT);
+  scheduler.wait();
+  const double core_seconds = read_attempts(directory).at(0).core_seconds;
+  EXPECT_GT(core_seconds, 0);
+  EXPECT_LE(core_seconds, spent() - before);
+}
+
+TEST_F(StudyLife, StopsWhatIsAtWorkAndSaysWhenNothingIs) {
+  std::ofstream(here() / "tiny.toml") << with(small_study, "dwell = \"1 td\"", "dwell = \"100 td\"");
+  Process scheduler(here(), {"run", "tiny.toml", "--cores", "2"});
+  const auto directory = here() / "tiny" / "by-label" / "rho3000-s1";
+  for (int n = 0; n < 1000 && !fs::exists(directory / "status.json"); ++n) ::usleep(10'000);
+  const auto stop = bedload(here(), {"stop", "tiny.toml"});
+  EXPECT_EQ(stop.code, 0);
+  EXPECT_NE(stop.err.find("1 at work asked to write a checkpoint and stop"), std::string::npos) << stop.err;
+  EXPECT_EQ(scheduler.wait().code, 75);
+  fs::remove(directory / "request");
+  const auto again = bedload(here(), {"stop", "tiny.toml"});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_NE(again.err.find("nothing of tiny.toml is at work"), std::string::npos) << again.err;
+  EXPECT_FALSE(fs::exists(directory / "request"));
 }
 
 }   // namespace

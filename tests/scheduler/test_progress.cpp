@@ -32,8 +32,8 @@ TEST(ProgressPrinter, WritesOneLineAMinuteIntoALog) {
   EXPECT_EQ(screen.take(), "d0.5mm: started\n");
   for (screen.now = 0; screen.now < 180; screen.now += 0.5) printer.update(some_progress());
   EXPECT_EQ(screen.take(),
-            "1 of 4 cases done, 1 at work, at most 2 min left\n"
-            "1 of 4 cases done, 1 at work, at most 2 min left\n");
+            "1 of 4 cases done, 1 at work, about 2 min left\n"
+            "1 of 4 cases done, 1 at work, about 2 min left\n");
 }
 
 TEST(ProgressPrinter, RepaintsItsBlockBelowTheEventsOnATerminal) {
