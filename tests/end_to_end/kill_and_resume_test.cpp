@@ -7,6 +7,8 @@
 #include <thread>
 
 #include "base/durable_file.hpp"
+#include "checkpoint/checkpoint_series.hpp"
+#include "scheduler/attempt.hpp"
 #include "tests/end_to_end/bedload_program.hpp"
 #include "tests/end_to_end/tiny_study.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -17,6 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 using Seconds = std::chrono::duration<double>;
 
+constexpr double longest_undisturbed_run = 20;   // [s]
+
+/// Checkpoints so often that a killed ramp has one to go on from.
+const std::string often_saved = with(tiny_study, "checkpoint.every = \"1 s\"", "checkpoint.every = \"0.2 s\"");
 const std::vector<std::string> run_command{"run", "tiny.toml", "--cores", "2"};
 
 std::vector<fs::path> directories_of(const fs::path& study) {
@@ -34,6 +40,28 @@ void kill_workers(const fs::path& study) {
       ::kill(static_cast<pid_t>(holder->pid), SIGKILL);
 }
 
+bool any_ramp_has_a_checkpoint(const fs::path& study_directory) {
+  for (const auto& directory : directories_of(study_directory))
+    if (directory.parent_path() == "cases" && newest_position(study_directory / directory)) return true;
+  return false;
+}
+
+void kill_all(Process& scheduler, const fs::path& study_directory) {
+  ::kill(scheduler.pid(), SIGKILL);
+  kill_workers(study_directory);
+  scheduler.wait();
+}
+
+/// Attempts that went on from a checkpoint beyond the bed on which the undisturbed run began.
+int resumed_attempts(const fs::path& disturbed, const fs::path& quiet) {
+  int resumed = 0;
+  for (const auto& directory : directories_of(disturbed)) {
+    const auto bed = read_attempts(quiet / directory).at(0).from_step.value();
+    for (const auto& attempt : read_attempts(disturbed / directory)) resumed += attempt.from_step.value_or(0) > bed;
+  }
+  return resumed;
+}
+
 /// Digest of the final state of every bed and case.
 std::map<std::string, std::string> digests(const fs::path& here) {
   std::map<std::string, std::string> found;
@@ -44,26 +72,33 @@ std::map<std::string, std::string> digests(const fs::path& here) {
 
 TEST(KillAndResume, GivesTheSameBitsAsAnUndisturbedRun) {
   TemporaryDirectory quiet, disturbed;
-  for (const auto* directory : {&quiet, &disturbed}) std::ofstream(directory->path() / "tiny.toml") << tiny_study;
+  for (const auto* directory : {&quiet, &disturbed}) std::ofstream(directory->path() / "tiny.toml") << often_saved;
 
   const auto begun = std::chrono::steady_clock::now();
   const auto undisturbed = bedload(quiet.path(), run_command);
   ASSERT_EQ(undisturbed.code, 0) << undisturbed.err;
   const double duration = Seconds(std::chrono::steady_clock::now() - begun).count();
+  EXPECT_LE(duration, longest_undisturbed_run);
+  const auto results = disturbed.path() / "tiny";
+
+  {   // one death that must cost no more than what came after the first checkpoint of a ramp
+    Process scheduler(disturbed.path(), run_command);
+    for (int n = 0; n < 6000 && !any_ramp_has_a_checkpoint(results); ++n) std::this_thread::sleep_for(Seconds(0.01));
+    kill_all(scheduler, results);
+  }
 
   const auto seed = std::random_device()();
   RecordProperty("seed", static_cast<int>(seed));
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> moment(0.05 * duration, 0.45 * duration);
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 2; ++round) {
     Process scheduler(disturbed.path(), run_command);
     std::this_thread::sleep_for(Seconds(moment(random)));   // the claim is about any moment
-    ::kill(scheduler.pid(), SIGKILL);
-    kill_workers(disturbed.path() / "tiny");
-    scheduler.wait();
+    kill_all(scheduler, results);
   }
   const auto resumed = bedload(disturbed.path(), run_command);
   ASSERT_EQ(resumed.code, 0) << "seed " << seed << ": " << resumed.err;
+  EXPECT_GT(resumed_attempts(results, quiet.path() / "tiny"), 0) << "every attempt began on its bed again";
 
   const std::vector<std::string> curve{"curve", "tiny.toml", "--csv"};
   EXPECT_EQ(bedload(quiet.path(), curve).out, bedload(disturbed.path(), curve).out) << "seed " << seed;
