@@ -35,13 +35,14 @@ double mean_superficial_velocity(const Scene& scene, const State& state) {
          static_cast<double>(scene.grid.cell_count());
 }
 
-/// Runs to the steady state under the gradient G along x.
+/// Runs to the steady state under the gradient G along x, at the step asked for and no shorter one.
 double settle_flow(const Scene& scene, State& state, double gradient, double step, int steps) {
   Coupler coupler(scene);
   state.search.gradient = gradient;
   for (int i = 0; i < steps; ++i) {
     const StepHealth health = coupler.step(state, step);
     EXPECT_TRUE(health.finite);
+    EXPECT_EQ(health.dt, step);
   }
   return mean_superficial_velocity(scene, state);
 }
@@ -86,6 +87,9 @@ TEST(FixedBed, GivesTheSameVelocityInModelAAndModelB) {
 struct RandomBed {
   double viscosity, reynolds;
   Terms terms{};
+  friend void PrintTo(const RandomBed& c, std::ostream* out) {
+    *out << "Re " << c.reynolds << ", viscosity " << c.viscosity << ", Model " << (c.terms.model_b() ? "B" : "A");
+  }
 };
 class RandomFixedBed : public testing::TestWithParam<RandomBed> {};
 INSTANTIATE_TEST_SUITE_P(FixedBed, RandomFixedBed,

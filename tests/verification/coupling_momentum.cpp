@@ -21,6 +21,9 @@ const Terms model_b{true, true, false, false};
 struct MomentumCase {
   double density_ratio;
   Terms terms{};
+  friend void PrintTo(const MomentumCase& c, std::ostream* out) {
+    *out << "density ratio " << c.density_ratio << ", Model " << (c.terms.model_b() ? "B" : "A");
+  }
 };
 class PeriodicSuspension : public testing::TestWithParam<MomentumCase> {};
 INSTANTIATE_TEST_SUITE_P(Momentum, PeriodicSuspension,
@@ -51,6 +54,9 @@ TEST_P(PeriodicSuspension, KeepsItWhileGrainsMoveAndCollide) {
 struct BooksCase {
   Terms terms{};
   double viscosity = 1e-6;
+  friend void PrintTo(const BooksCase& c, std::ostream* out) {
+    *out << "viscosity " << c.viscosity << ", Model " << (c.terms.model_b() ? "B" : "A");
+  }
 };
 class ShearedMixture : public testing::TestWithParam<BooksCase> {};
 INSTANTIATE_TEST_SUITE_P(Momentum, ShearedMixture,

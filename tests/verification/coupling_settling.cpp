@@ -7,6 +7,12 @@
 #include "solver/coupling/drag_laws.hpp"
 #include "tests/support/scenes.hpp"
 
+namespace bedload {
+
+void PrintTo(DragLawName law, std::ostream* out) { *out << name_of(law); }
+
+}   // namespace bedload
+
 namespace bedload::test {
 namespace {
 
@@ -46,6 +52,9 @@ const Terms model_b{true, true, false, false};
 struct SuspensionCase {
   double re, density_ratio;
   Terms terms{};
+  friend void PrintTo(const SuspensionCase& c, std::ostream* out) {
+    *out << "Re " << c.re << ", density ratio " << c.density_ratio << ", Model " << (c.terms.model_b() ? "B" : "A");
+  }
 };
 class Suspension : public testing::TestWithParam<SuspensionCase> {};
 INSTANTIATE_TEST_SUITE_P(Settling, Suspension,
@@ -91,6 +100,9 @@ TEST_P(Suspension, IsHinderedAsItsOwnLawSays) {
 struct ColumnCase {
   double density_ratio;
   Terms terms{};
+  friend void PrintTo(const ColumnCase& c, std::ostream* out) {
+    *out << "density ratio " << c.density_ratio << ", Model " << (c.terms.model_b() ? "B" : "A");
+  }
 };
 class Column : public testing::TestWithParam<ColumnCase> {};
 INSTANTIATE_TEST_SUITE_P(Settling, Column,
