@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -160,6 +161,11 @@ void Reader::check_exclusion(const Settings& exclusion) {
   }
 }
 
+/// A count that may be larger than any int: then the largest int says as much.
+int whole(const Setting& setting) {
+  return static_cast<int>(std::min(std::get<double>(setting.value), double(std::numeric_limits<int>::max())));
+}
+
 double si_number(const Settings& settings, std::string_view path) {
   const auto found = settings.find(path);
   const auto setting = found == settings.end() ? *fallback_of(*find_key(path)) : found->second;
@@ -182,9 +188,8 @@ RunOptions run_options(const Settings& settings, Problems& problems) {
     problems.add(ranks->place, fmt::format("run.ranks: {} ranks per case are not in this version", ranks->text),
                  "ranks = 1; cases run side by side on all cores");
   if (const auto* cores = find("run.cores"); cores && std::holds_alternative<double>(cores->value))
-    run.cores = static_cast<int>(std::get<double>(cores->value));
-  if (const auto* keep = find("run.checkpoint.keep"))
-    run.checkpoint_keep = static_cast<int>(std::get<double>(keep->value));
+    run.cores = whole(*cores);
+  if (const auto* keep = find("run.checkpoint.keep")) run.checkpoint_keep = whole(*keep);
   for (const auto& [path, number] :
        {std::pair{"run.checkpoint.every", &run.checkpoint_every}, {"run.stall_limit", &run.stall_limit}}) {
     const auto* given = find(path);
