@@ -15,7 +15,7 @@
 #include "scheduler/interrupts.hpp"
 #include "scheduler/request.hpp"
 #include "scheduler/scheduler.hpp"
-#include "tests/scheduler/temporary_directory.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace bedload {
 
@@ -185,7 +185,7 @@ class FakeStudy {
     return "none";
   }
 
-  TemporaryDirectory temporary;
+  InMemoryDirectory temporary;
   std::filesystem::path study = temporary.path();
   FakeExecutor executor;
   Listener listener;

@@ -11,13 +11,13 @@
 #include "scheduler/heartbeat.hpp"
 #include "scheduler/last_words.hpp"
 #include "scheduler/request.hpp"
-#include "tests/scheduler/temporary_directory.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace bedload {
 namespace {
 
 TEST(Attempts, KeepEverythingThatWasWritten) {
-  const TemporaryDirectory directory;
+  const InMemoryDirectory directory;
   Attempt a = open_attempt(directory.path());
   EXPECT_EQ(a.number, 1);
   EXPECT_EQ(a.pid, ::getpid());
@@ -42,7 +42,7 @@ TEST(Attempts, KeepEverythingThatWasWritten) {
 }
 
 TEST(Attempts, CountOnFromTheHighestNumber) {
-  const TemporaryDirectory directory;
+  const InMemoryDirectory directory;
   for (int n = 1; n <= 12; ++n) EXPECT_EQ(open_attempt(directory.path()).number, n);   // 10 sorts before 2 as text
   EXPECT_EQ(highest_attempt(directory.path()), 12);
   std::ofstream(directory.path() / "attempt.x.json");
@@ -52,7 +52,7 @@ TEST(Attempts, CountOnFromTheHighestNumber) {
 }
 
 TEST(Attempts, GiveEveryNumberToOneOfTwoRacingProcesses) {
-  const TemporaryDirectory directory;
+  const InMemoryDirectory directory;
   constexpr int wins_each = 25;
   std::vector<pid_t> rivals;
   for (int i = 0; i < 2; ++i) {
@@ -89,7 +89,7 @@ TEST(Attempts, OfADirectoryThatIsNotThereAreNone) {
 }
 
 TEST(Heartbeats, AreReadAsTheyWereWritten) {
-  const TemporaryDirectory directory;
+  const InMemoryDirectory directory;
   EXPECT_FALSE(read_heartbeat(directory.path()));
   const Heartbeat h{4242, 7, 0.125, 2.5, "ramp", 3, 12, 0.0864, 210.5, 33.25};
   write_heartbeat(directory.path(), h);
@@ -97,7 +97,7 @@ TEST(Heartbeats, AreReadAsTheyWereWritten) {
 }
 
 TEST(Heartbeats, AreReadAsFarAsTheyGo) {
-  const TemporaryDirectory directory;
+  const InMemoryDirectory directory;
   std::ofstream(directory.path() / "status.json") << R"({"step": 5, "of the future": []})";
   ASSERT_TRUE(read_heartbeat(directory.path()));
   EXPECT_EQ(read_heartbeat(directory.path())->step, 5u);
@@ -108,7 +108,7 @@ TEST(Heartbeats, AreReadAsFarAsTheyGo) {
 TEST(Heartbeats, ThatCannotBeWrittenEndNothing) { write_heartbeat("/no/such/directory", {}); }
 
 TEST(LastWords, OfAWorkerAreThoseOfItsLastHeartbeat) {
-  const TemporaryDirectory directory;
+  const InMemoryDirectory directory;
   Attempt attempt = open_attempt(directory.path());
   Heartbeat h;
   h.pid = attempt.pid;
@@ -123,7 +123,7 @@ TEST(LastWords, OfAWorkerAreThoseOfItsLastHeartbeat) {
 }
 
 TEST(Requests, StandUntilTheyAreCleared) {
-  const TemporaryDirectory directory;
+  const InMemoryDirectory directory;
   EXPECT_FALSE(read_request(directory.path()));
   for (const Request request : {Request::stop, Request::hold}) {
     write_request(directory.path(), request);

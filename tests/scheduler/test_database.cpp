@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "scheduler/database.hpp"
-#include "tests/scheduler/temporary_directory.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace bedload {
 namespace {
@@ -26,7 +26,7 @@ class StudyDatabase : public testing::Test {
     return ErrorKind::internal;
   }
 
-  TemporaryDirectory temporary_;
+  InMemoryDirectory temporary_;
   fs::path directory_ = temporary_.path(), file_ = directory_ / "study.db";
 };
 

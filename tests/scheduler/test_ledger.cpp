@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "scheduler/ledger.hpp"
-#include "tests/scheduler/temporary_directory.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace bedload {
 namespace {
@@ -20,7 +20,7 @@ CaseEntry entry(const std::string& id, const std::string& bed = {}) {
 
 class LedgerOfAStudy : public testing::Test {
  protected:
-  TemporaryDirectory directory_;
+  InMemoryDirectory directory_;
   Database database_{directory_.path() / "study.db", Database::Mode::write};
   Ledger ledger_{database_, directory_.path()};
 };

@@ -8,7 +8,7 @@
 #include "base/durable_file.hpp"
 #include "base/error.hpp"
 #include "scheduler/process_executor.hpp"
-#include "tests/scheduler/temporary_directory.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace bedload {
 namespace {
@@ -31,7 +31,7 @@ class Processes : public testing::Test {
   }
   std::string log(int attempt) { return read_text(directory_ / ("log." + std::to_string(attempt))); }
 
-  TemporaryDirectory temporary_;
+  InMemoryDirectory temporary_;
   fs::path directory_ = temporary_.path();
 };
 
@@ -49,7 +49,7 @@ TEST_F(Processes, WriteBothStreamsToTheLogOfTheirAttempt) {
   EXPECT_EQ(log(3), "out\nerr\n" + directory_.string() + "\n");
 }
 
-TEST_F(Processes, HaveASessionAndATemporaryDirectoryOfTheirOwn) {
+TEST_F(Processes, HaveASessionAndAInMemoryDirectoryOfTheirOwn) {
   run("test -d $TMPDIR && touch $TMPDIR/left && echo $TMPDIR; cut -d' ' -f6 /proc/$$/stat; echo $$; cat");
   const std::string text = log(1);
   const auto first = text.find('\n'), second = text.find('\n', first + 1);

@@ -452,7 +452,7 @@ TEST(Scheduler, TellsHowFarItIsAndHowLongItWillTake) {
 }
 
 TEST(Scheduler, IsTheOnlyOneOfItsStudy) {
-  const TemporaryDirectory directory;
+  const InMemoryDirectory directory;
   const FileLock lock = lock_study(directory.path());
   try {
     lock_study(directory.path());

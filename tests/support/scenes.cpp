@@ -57,18 +57,22 @@ std::vector<Vec3> cubic_places(std::array<int, 3> count, Vec3 low, Vec3 high, do
   return places;
 }
 
-Vec3 total_momentum(const Scene& scene, const State& state) {
+FaceFields face_void_fraction(const Scene& scene, const State& state) {
   std::vector<Stencil> stencils;
   find_stencils(scene.grid, state.grains, stencils);
   VoidFraction eps(scene.grid);
   deposit_void_fraction(scene.grid, state.grains, stencils, eps);
+  return eps.face;
+}
+
+Vec3 total_momentum(const Scene& scene, const State& state) {
+  const FaceFields eps = face_void_fraction(scene, state);
   Vec3 sum;
   for (int c = 0; c < 3; ++c)
     sum[c] = scene.bed.fluid.density * scene.grid.cell_volume() *
-             sum_over_faces(scene.grid, c,
-                            [e = eps.face.component(c), u = state.fluid.velocity.component(c)](std::size_t n) {
-                              return e[n] * u[n];
-                            });
+             sum_over_faces(
+                 scene.grid, c,
+                 [e = eps.component(c), u = state.fluid.velocity.component(c)](std::size_t n) { return e[n] * u[n]; });
   for (std::size_t p = 0; p < state.grains.size(); ++p)
     sum += state.grains.density[p] * sphere_volume(state.grains.diameter[p]) * state.grains.velocity[p];
   return sum;

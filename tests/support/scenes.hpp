@@ -26,6 +26,9 @@ State state_of(const Scene&, const std::vector<Vec3>& places, bool fixed);
 /// [m] in every direction (counter-based random numbers: the same on every machine).
 std::vector<Vec3> cubic_places(std::array<int, 3> count, Vec3 low, Vec3 high, double jitter, unsigned seed);
 
+/// eps on the faces for the grains where they are now.
+FaceFields face_void_fraction(const Scene&, const State&);
+
 /// Total momentum of fluid and grains [kg m/s].
 Vec3 total_momentum(const Scene&, const State&);
 

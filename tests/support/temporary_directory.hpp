@@ -1,6 +1,8 @@
 // A directory of a test's own, gone when the test ends.
 #pragma once
 
+#include <unistd.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -10,8 +12,8 @@ namespace bedload {
 
 class TemporaryDirectory {
  public:
-  TemporaryDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "bedload-test-XXXXXX").string();
+  explicit TemporaryDirectory(const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
+    std::string name = (parent / "bedload-test-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
     path_ = name;
   }
@@ -26,6 +28,14 @@ class TemporaryDirectory {
 
  private:
   std::filesystem::path path_;
+};
+
+/// In memory where it can be: hundreds of fsyncs take seconds on a busy disk.
+class InMemoryDirectory : public TemporaryDirectory {
+ public:
+  InMemoryDirectory()
+      : TemporaryDirectory(::access("/dev/shm", W_OK | X_OK) == 0 ? "/dev/shm"
+                                                                  : std::filesystem::temp_directory_path()) {}
 };
 
 }   // namespace bedload

@@ -5,7 +5,6 @@
 
 #include "solver/coupler.hpp"
 #include "solver/coupling/drag_laws.hpp"
-#include "solver/coupling/void_fraction.hpp"
 #include "solver/fluid/face_loops.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -26,12 +25,9 @@ double law_velocity(DragLawName name, double phi, double diameter, double viscos
 }
 
 double mean_superficial_velocity(const Scene& scene, const State& state) {
-  std::vector<Stencil> stencils;
-  find_stencils(scene.grid, state.grains, stencils);
-  VoidFraction eps(scene.grid);
-  deposit_void_fraction(scene.grid, state.grains, stencils, eps);
+  const FaceFields eps = face_void_fraction(scene, state);
   const double* u = state.fluid.velocity.component(0);
-  return sum_over_faces(scene.grid, 0, [e = eps.face.component(0), u](std::size_t n) { return e[n] * u[n]; }) /
+  return sum_over_faces(scene.grid, 0, [e = eps.component(0), u](std::size_t n) { return e[n] * u[n]; }) /
          static_cast<double>(scene.grid.cell_count());
 }
 
