@@ -21,6 +21,11 @@ void check_format(const Hdf5Reader& file) {
                                      file.name(), format, checkpoint_format),
                          "continue with the bedload that wrote it, or a later one");
   if (format < 1) throw Error(ErrorKind::corrupt, fmt::format("{}: checkpoint format 0 does not exist", file.name()));
+  if (format < checkpoint_format)
+    throw Error(ErrorKind::corrupt,
+                fmt::format("{}: written by an older bedload (checkpoint format {}; this one reads {})", file.name(),
+                            format, checkpoint_format),
+                "`bedload run --recompute` starts its case anew");
 }
 
 [[noreturn]] void refuse_shape(const Hdf5Reader& file, const std::string& path, const Shape& shape,

@@ -157,11 +157,12 @@ void BedRecorder::record_sample(State& state, const StepHealth& health) {
 void BedRecorder::record_tracks(State& state) const {
   BedRecord::Tracks& row = state.record.tracks;
   for (const std::uint64_t id : scene_.record.tracks) {
-    const Vec3 x = state.grains.position.at(id), v = state.grains.velocity.at(id);
+    const Vec3 x = state.grains.position.at(id), v = state.grains.velocity.at(id), w = state.grains.spin.at(id);
     row.time.push_back(state.clock.time);
     row.grain.push_back(double(id));
     row.x.push_back(x.x), row.y.push_back(x.y), row.z.push_back(x.z);
     row.vx.push_back(v.x), row.vy.push_back(v.y), row.vz.push_back(v.z);
+    row.wx.push_back(w.x), row.wy.push_back(w.y), row.wz.push_back(w.z);
   }
 }
 

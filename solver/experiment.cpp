@@ -118,6 +118,8 @@ void Experiment::Parts::begin_hold(State& state) const {
   search.shields = flow.shields;
   search.lid_speed = flow.lid_speed;
   search.gradient = flow.gradient;
+  search.push = flow.push;
+  search.through_flow = flow.through_flow;
 
   search.hold_begun = 1;
   search.hold_start = state.clock.time;

@@ -11,15 +11,32 @@
 
 namespace bedload {
 
-enum class DragLawName { stokes, schiller_naumann, di_felice };
+enum class DragLawName { stokes, schiller_naumann, di_felice, ergun, gidaspow, koch_hill, beetstra, tang, rong };
 
-/// Which forces act between fluid and grains (besides contacts and weight).
+/// Which forces act between fluid and grains (besides contacts and weight), and what the liquid does to a collision.
 struct Terms {
   bool drag = true, buoyancy = true, pressure_gradient = true, viscous_stress = true;
+  bool self_disturbance = false;   // a lone grain is freed of the flow that it has set in motion itself
+  bool added_mass = false, shear_lift = false, magnus = false, viscous_torque = false;
+  bool wall_forces = false;       // factors on drag, lift and torque near plane walls
+  bool wet_restitution = false;   // a collision rebounds by its Stokes number...
+  bool lubrication = false;       // ...or by the film between the grains: not both
+  bool exposure = false;          // more drag on grains that stand out of a bed
+  bool turbulence = false;        // eddy viscosity and wall laws
   /// pressure_gradient and viscous_stress are the grains' half of the void fraction in the fluid's equation:
   /// both (Model A) or neither (Model B).
   bool model_b() const { return !pressure_gradient; }
   bool operator==(const Terms&) const = default;
+};
+
+/// The fluid before anything has moved.
+enum class FluidStart { rest, taylor_green };
+
+/// Width of a further smoothing of whatever passes between grains and grid: standard deviation of the kernel that it is
+/// convolved with, across (x and y) and along z [m]; 0 = none.
+struct Smoothing {
+  double xy = 0, z = 0;
+  bool operator==(const Smoothing&) const = default;
 };
 
 struct Onset {
@@ -43,9 +60,15 @@ struct Scene {
   BedScene bed;         // fluid, grains, walls, gravity, DEM step
   StaggeredGrid grid;   // cells of the box; same length, sides and top as bed
   FlowRamp drive;
+  bool developed = true;   // each level begins with its steady flow; else with the flow that is there
+  FluidStart fluid_start = FluidStart::rest;
+  double start_speed = 0;        // of the Taylor-Green vortices [m/s]
+  double bottom_roughness = 0;   // k_s of the bottom wall [m]; 0 = smooth
   Onset onset;
   DragLawName drag = DragLawName::di_felice;
   Terms terms;
+  Smoothing smoothing;
+  bool strict = false;   // a warning of warnings_of() is an error
   Steps steps;
   RecordPlan record;
   bool bed_only = false;   // finished once the bed has settled (a bed directory)

@@ -40,6 +40,8 @@ struct Search {
   double shields = 0;                // nominal, imposed now [-]
   double lid_speed = 0;              // imposed now [m/s]
   double gradient = 0;               // imposed now [m/s2]
+  double push = 0;                   // imposed now, per submerged weight [-]
+  double through_flow = 0;           // imposed now [m/s]
   double next_sample = 0;            // [s]
   Window half;                       // the last half of the hold
   Window sample;                     // since the last sample
@@ -84,11 +86,14 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("grains/density", s.grains.density, "kg/m3");
   visit("grains/fixed", s.grains.fixed, "1");
   visit("grains/mean_contact_force", s.grains.mean_contact_force, "N");
+  visit("grains/mean_contact_torque", s.grains.mean_contact_torque, "N m");
   visit("grains/travel", s.grains.travel, "m");
 
   visit("contacts/lower", s.contacts.lower, "1");
   visit("contacts/higher", s.contacts.higher, "1");
   visit("contacts/spring", s.contacts.spring, "m");
+  visit("contacts/damping", s.contacts.damping, "1");
+  visit("contacts/rolling", s.contacts.rolling, "rad");
 
   visit("search/phase", s.search.phase, "1");
   visit("search/hold", s.search.hold, "1");
@@ -98,6 +103,8 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("search/shields", s.search.shields, "1");
   visit("search/lid_speed", s.search.lid_speed, "m/s");
   visit("search/gradient", s.search.gradient, "m/s2");
+  visit("search/push", s.search.push, "1");
+  visit("search/through_flow", s.search.through_flow, "m/s");
   visit("search/next_sample", s.search.next_sample, "s");
   visit("search/half/duration", s.search.half.duration, "s");
   visit("search/half/events", s.search.half.events, "1");
@@ -164,19 +171,22 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("record/tracks/vx", t.vx, "m/s");
   visit("record/tracks/vy", t.vy, "m/s");
   visit("record/tracks/vz", t.vz, "m/s");
+  visit("record/tracks/wx", t.wx, "rad/s");
+  visit("record/tracks/wy", t.wy, "rad/s");
+  visit("record/tracks/wz", t.wz, "rad/s");
 
   // A new member of State changes one of these sizes: list it above, then here.
-  static_assert(sizeof(Clock) == 2 * 8 && sizeof(Window) == 7 * 8 && sizeof(Search) == 12 * 8 + 2 * sizeof(Window));
+  static_assert(sizeof(Clock) == 2 * 8 && sizeof(Window) == 7 * 8 && sizeof(Search) == 14 * 8 + 2 * sizeof(Window));
   static_assert(sizeof(FluidState) == 4 * sizeof(Field<Centre>) + 8);
-  static_assert(sizeof(Grains) == 8 * sizeof(std::vector<Vec3>) &&
-                sizeof(ContactHistory) == 3 * sizeof(std::vector<Vec3>));
-  static_assert(sizeof(BedRecord) == (12 + 15 + 5 + 8) * sizeof(std::vector<double>));
+  static_assert(sizeof(Grains) == 9 * sizeof(std::vector<Vec3>) &&
+                sizeof(ContactHistory) == 5 * sizeof(std::vector<Vec3>));
+  static_assert(sizeof(BedRecord) == (12 + 15 + 5 + 11) * sizeof(std::vector<double>));
 }
 
 /// SHA-256 over each_field: name, unit, shape, little-endian bytes of the interior. Hexadecimal.
 std::string state_digest(const State&);
 
 /// Moves by hand when the same input gives other results; the changelog says why.
-inline constexpr int physics_version = 1;
+inline constexpr int physics_version = 2;
 
 }   // namespace bedload

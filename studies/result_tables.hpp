@@ -109,6 +109,9 @@ CREATE TABLE IF NOT EXISTS tracks (                -- trajectories of record.tra
   vx_m_per_s                REAL NOT NULL,
   vy_m_per_s                REAL NOT NULL,
   vz_m_per_s                REAL NOT NULL,
+  wx_rad_per_s              REAL NOT NULL,
+  wy_rad_per_s              REAL NOT NULL,
+  wz_rad_per_s              REAL NOT NULL,
   PRIMARY KEY (case_id, grain, time_s)
 ) STRICT;
 

@@ -144,7 +144,8 @@ void store_samples(Database& database, const CaseIdentity& id, const BedRecord::
 void store_tracks(Database& database, const CaseIdentity& id, const BedRecord::Tracks& t) {
   for (std::size_t n = 0; n < t.time.size(); ++n)
     insert(database, "tracks",
-           {id.id, whole(t.grain[n]), t.time[n], t.x[n], t.y[n], t.z[n], t.vx[n], t.vy[n], t.vz[n]});
+           {id.id, whole(t.grain[n]), t.time[n], t.x[n], t.y[n], t.z[n], t.vx[n], t.vy[n], t.vz[n], t.wx[n], t.wy[n],
+            t.wz[n]});
 }
 
 void store_models(Database& database, const CaseIdentity& id, const std::vector<ModelChoice>& models) {

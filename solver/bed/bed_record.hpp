@@ -23,7 +23,7 @@ struct BedRecord {
     bool operator==(const Profiles&) const = default;
   } profiles;
   struct Tracks {   // record.tracks, one row per sample and tracked grain
-    std::vector<double> time, grain, x, y, z, vx, vy, vz;
+    std::vector<double> time, grain, x, y, z, vx, vy, vz, wx, wy, wz;
     bool operator==(const Tracks&) const = default;
   } tracks;
   bool operator==(const BedRecord&) const = default;

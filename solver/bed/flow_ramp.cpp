@@ -36,6 +36,8 @@ ImposedFlow imposed_flow(const Scene& scene, std::uint64_t hold, double bed_heig
   const FlowRamp& ramp = scene.drive;
   if (ramp.kind == FlowRamp::Kind::none) return {};
   const double level = ramp.levels.at(hold);
+  if (ramp.kind == FlowRamp::Kind::push) return {.push = level};
+  if (ramp.kind == FlowRamp::Kind::through_flow) return {.through_flow = level};
   const double density = scene.bed.fluid.density;
   const bool has_bed_stress =
       scene.bed.sides[2] == Side::wall;   // without bottom and top there is no tau_b to speak of

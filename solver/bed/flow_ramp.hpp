@@ -8,8 +8,11 @@ namespace bedload {
 
 /// One staircase. Level k is held for `dwell` seconds, then level k+1 begins.
 struct FlowRamp {
-  enum class Kind { none, lid, pressure };                // what moves the fluid
-  enum class Quantity { shields, lid_speed, gradient };   // what the levels count: [-], [m/s], [Pa/m]
+  /// What is moved: the lid; the fluid, by a pressure gradient along x; the grains, by a force along x at their centres;
+  /// all fluid and grains of a box without bottom and top, by a net volume flux along z.
+  enum class Kind { none, lid, pressure, push, through_flow };
+  /// What the levels count: [-], [m/s], [Pa/m], force per submerged weight [-], volume flux per area [m/s].
+  enum class Quantity { shields, lid_speed, gradient, push, through_flow };
   Kind kind = Kind::none;
   Quantity quantity = Quantity::shields;
   std::vector<double> levels;
@@ -18,9 +21,11 @@ struct FlowRamp {
 
 /// What one hold does to the box (numerics: "Shields number imposed").
 struct ImposedFlow {
-  double shields = 0;     // nominal [-]
-  double lid_speed = 0;   // [m/s]
-  double gradient = 0;    // driving force per mass of fluid along x, G [m/s2]
+  double shields = 0;        // nominal [-]
+  double lid_speed = 0;      // [m/s]
+  double gradient = 0;       // driving force per mass of fluid along x, G [m/s2]
+  double push = 0;           // force along x on each grain, per submerged weight [-]
+  double through_flow = 0;   // volume flux along z per area [m/s]
 };
 
 struct Scene;

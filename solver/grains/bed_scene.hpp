@@ -16,13 +16,14 @@ struct FluidProperties {
 };
 
 struct GrainProperties {
-  double diameter = 0;        // mean [m]
-  double density = 0;         // [kg/m3]
-  double spread = 0;          // standard deviation / mean of diameters, normal, cut at 2 deviations [-]
-  double friction = 0;        // Coulomb [-], grain-grain and grain-wall
-  double restitution = 0;     // normal, of a dry collision [-]
-  double poisson = 0;         // [-]
-  double young_modulus = 0;   // [Pa], resolved ("auto" is computed before a Scene exists)
+  double diameter = 0;           // mean [m]
+  double density = 0;            // [kg/m3]
+  double spread = 0;             // standard deviation / mean of diameters, normal, cut at 2 deviations [-]
+  double friction = 0;           // Coulomb [-], grain-grain and grain-wall
+  double restitution = 0;        // normal, of a dry collision [-]
+  double poisson = 0;            // [-]
+  double young_modulus = 0;      // [Pa], resolved ("auto" is computed before a Scene exists)
+  double rolling_friction = 0;   // mu_r [-]
 };
 
 /// Where the grains come from.

@@ -14,7 +14,9 @@ enum class Wall : std::uint32_t { x_low = 0xFFFFFFF0u, x_high, y_low, y_high, z_
 /// Touching pairs (lower id, higher id or Wall), sorted by lower then higher. Nothing else is remembered.
 struct ContactHistory {
   std::vector<std::uint32_t> lower, higher;
-  std::vector<Vec3> spring;   // tangential spring, of the force on the lower grain [m]
+  std::vector<Vec3> spring;      // tangential spring, of the force on the lower grain [m]
+  std::vector<double> damping;   // alpha of the normal damping, chosen when the contact began [-]; empty: all alike
+  std::vector<Vec3> rolling;     // rolling spring, of the torque on the lower grain [rad]; empty: no rolling friction
 
   std::size_t size() const { return lower.size(); }
   bool operator==(const ContactHistory&) const = default;

@@ -50,7 +50,8 @@ void renumber_in_space(const BedScene& scene, Grains& grains, ContactHistory& co
   for (std::uint32_t i = 0; i < old_id.size(); ++i) new_id[old_id[i]] = i;
   reorder(grains.position, old_id), reorder(grains.velocity, old_id), reorder(grains.spin, old_id);
   reorder(grains.diameter, old_id), reorder(grains.density, old_id), reorder(grains.fixed, old_id);
-  reorder(grains.mean_contact_force, old_id), reorder(grains.travel, old_id);
+  reorder(grains.mean_contact_force, old_id), reorder(grains.mean_contact_torque, old_id);
+  reorder(grains.travel, old_id);
   renumber(contacts, new_id);
 }
 
