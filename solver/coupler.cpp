@@ -118,8 +118,7 @@ struct Coupler::Parts {
   FaceFields kick;
   TransportScratch transport_scratch;
   FlowAtGrains flow;
-  std::vector<double> exchange, relaxation;
-  std::vector<Vec3> ballistic, flow_velocity, push, moved, drag_force;
+  std::vector<Vec3> exchange, relaxation, ballistic, flow_velocity, push, moved, drag_force;
 
   StepBooks books;
   StepTimes times;
@@ -144,7 +143,7 @@ struct Coupler::Parts {
   void deposit_at_new_positions(const State&, double dt);
   void transport_momentum(State&, double dt);
   void project(State&, double dt);
-  void hold_back_net_flux(State&);
+  void hold_net_flux(State&, double dt);
   void kick_mixture(State&, double dt);
   Vec3 weight(double density) const;
 };
@@ -258,8 +257,8 @@ void Coupler::Parts::limit_by_grains(const State& state, double& step) {
   if (fastest > 0) shorten(step, largest_grain_travel * shortest_edge / fastest, StepLimit::travel);
   double relaxation_time = std::numeric_limits<double>::infinity();   // the shortest M/beta
   for (std::size_t p = 0; p < grains.size(); ++p)
-    if (!grains.fixed[p] && flow.drag[p] > 0)
-      relaxation_time = std::min(relaxation_time, specific_mass(grains, p) / flow.drag[p]);
+    if (const double beta = std::max({flow.drag[p].x, flow.drag[p].y, flow.drag[p].z}); !grains.fixed[p] && beta > 0)
+      relaxation_time = std::min(relaxation_time, specific_mass(grains, p) / beta);
   shorten(step, largest_relaxation * relaxation_time, StepLimit::drag);
   // Drag that is constant over a step lags behind a collision; that matters only where drag is not weak.
   const double weak_drag = harmless_relaxation * relaxation_time;
@@ -281,11 +280,12 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
       push.resize(count), drag_force.resize(count);
   for (std::size_t p = 0; p < count; ++p) {
     exchange[p] = flow.drag[p] * dt / grid.cell_volume();
-    relaxation[p] = 0, ballistic[p] = {}, push[p] = {};
+    relaxation[p] = ballistic[p] = push[p] = {};
     if (grains.fixed[p]) continue;
     const double mass = specific_mass(grains, p);
     relaxation[p] = flow.drag[p] * dt / mass;
     push[p] = weight(grains.density[p]);
+    push[p].x += state.search.push * norm(push[p]);
     if (!model_b()) push[p] += rho / grains.density[p] * flow.acceleration[p];
     ballistic[p] = grains.velocity[p] + dt * (push[p] + grains.mean_contact_force[p] / (rho * mass));
   }
@@ -302,7 +302,9 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
   health.converged = health.drag_iterations < ImplicitDrag::most_iterations;
   Vec3 on_grains;
   for (std::size_t p = 0; p < count; ++p) {
-    const Vec3 force = flow.drag[p] / (1 + relaxation[p]) * (flow_velocity[p] - ballistic[p]);   // per rho_f
+    const Vec3 a = relaxation[p], slip = flow_velocity[p] - ballistic[p];
+    const Vec3 force =
+        scaled(flow.drag[p], {slip.x / (1 + a.x), slip.y / (1 + a.y), slip.z / (1 + a.z)});   // per rho_f
     drag_force[p] = rho * force;
     on_grains += force;
     if (!model_b()) on_grains += sphere_volume(grains.diameter[p]) * flow.acceleration[p];
@@ -385,18 +387,20 @@ void Coupler::Parts::project(State& state, double dt) {
   health.converged &= solve.converged;
   health.divergence = solve.residual;
   gradient(grid, correction, kick);
-  hold_back_net_flux(state);
+  hold_net_flux(state, dt);
   kick_mixture(state, dt);
   for (std::size_t n = 0; n < correction.values.size(); ++n) state.fluid.pressure[n] += correction[n];
   health.finite = all_finite(state);
 }
 
-/// In a box without bottom or top, weight is borne by a uniform gradient: the one that lets no net volume pass.
-void Coupler::Parts::hold_back_net_flux(State& state) {
-  if (!grid.periodic(2) || scene.bed.gravity.z == 0) return;
+/// In a box without bottom or top, weight is borne by a uniform gradient: the one that lets just the volume pass that is
+/// asked for, or none.
+void Coupler::Parts::hold_net_flux(State& state, double dt) {
+  if (!grid.periodic(2) || (scene.bed.gravity.z == 0 && scene.drive.kind != FlowRamp::Kind::through_flow)) return;
   double* const gradient_z = kick.component(2);
   const double *f = solid_flux.component(2), *both = response.coefficient.component(2);
-  const double net = sum_over_faces(grid, 2, [=](std::size_t n) { return f[n] - both[n] * gradient_z[n]; });
+  const double asked = state.search.through_flow / dt;
+  const double net = sum_over_faces(grid, 2, [=](std::size_t n) { return f[n] - both[n] * gradient_z[n] - asked; });
   const double uniform = net / sum_over_faces(grid, 2, [=](std::size_t n) { return both[n]; });
   for_each_unknown_face(grid, 2, [=](std::size_t n) { gradient_z[n] += uniform; });
   state.fluid.column_gradient -= uniform;

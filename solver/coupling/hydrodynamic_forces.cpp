@@ -16,7 +16,8 @@ void evaluate_drag(const Law& law, const Grains& grains, double viscosity, bool 
     flow.void_clamps += eps != sampled && sampled < least_void;
     const double d = grains.diameter[p];
     const double re = eps * norm(flow.velocity[p] - grains.velocity[p]) * d / viscosity;
-    flow.drag[p] = 3 * std::numbers::pi * viscosity * d * law.multiplier(eps, re) * (model_b ? 1 : eps);
+    const double beta = 3 * std::numbers::pi * viscosity * d * law.multiplier(eps, re) * (model_b ? 1 : eps);
+    flow.drag[p] = {beta, beta, beta};
   }
 }
 
@@ -26,7 +27,8 @@ void sample_flow(const StaggeredGrid& grid, const Grains& grains, std::span<cons
                  FaceFields& velocity, FaceFields& acceleration, Field<Centre>& void_fraction, const DragLaw& law,
                  double viscosity, const Terms& terms, FlowAtGrains& flow) {
   const std::size_t n = grains.size();
-  flow.velocity.resize(n), flow.acceleration.resize(n), flow.void_fraction.resize(n), flow.drag.assign(n, 0);
+  flow.velocity.resize(n), flow.acceleration.resize(n), flow.void_fraction.resize(n);
+  flow.drag.assign(n, {}), flow.force.assign(n, {});
   extend_samples(grid, velocity), extend_samples(grid, acceleration), extend_samples(grid, void_fraction);
   const Strides stride(grid);
   for (std::size_t p = 0; p < n; ++p) {

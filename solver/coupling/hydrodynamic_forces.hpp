@@ -15,7 +15,9 @@ struct FlowAtGrains {
   std::vector<Vec3> velocity;          // u at the grain [m/s]
   std::vector<Vec3> acceleration;      // -grad q + nu lap u + G at the grain [m/s2]
   std::vector<double> void_fraction;   // eps at the grain [-]
-  std::vector<double> drag;   // beta/rho_f: drag force per slip and fluid density [m3/s]; divided by eps in Model B
+  std::vector<Vec3>
+      drag;   // beta/rho_f per axis: drag force per slip and fluid density [m3/s]; divided by eps in Model B
+  std::vector<Vec3> force;         // explicit forces on the grain besides drag (lift, ...), per fluid density [m4/s2]
   std::uint64_t void_clamps = 0;   // grains whose void fraction lay below 0.26
 };
 

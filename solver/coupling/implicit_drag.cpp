@@ -35,10 +35,11 @@ double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, c
   clear(exchange_), clear(residual_);
   const Strides stride(g);
   for (std::size_t p = 0; p < problem.stencils.size(); ++p) {
-    const double k = problem.exchange[p], a = problem.relaxation[p];
-    deposit(problem.stencils[p], stride, {k, k, k}, exchange_);
-    deposit(problem.stencils[p], stride, k / (1 + a) * (a * problem.flow_velocity[p] + problem.ballistic[p]),
-            residual_);
+    const Vec3 k = problem.exchange[p], a = problem.relaxation[p];
+    deposit(problem.stencils[p], stride, k, exchange_);
+    const Vec3 followed = scaled(a, problem.flow_velocity[p]) + problem.ballistic[p];
+    deposit(problem.stencils[p], stride,
+            {k.x / (1 + a.x) * followed.x, k.y / (1 + a.y) * followed.y, k.z / (1 + a.z) * followed.z}, residual_);
   }
   fold_deposits(g, exchange_), fold_deposits(g, residual_);
   const Vec3 h = g.h;
@@ -63,10 +64,11 @@ void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, con
   extend_samples(g, x);
   const Strides stride(g);
   for (std::size_t p = 0; p < problem.stencils.size(); ++p) {
-    const double a = problem.relaxation[p];
-    if (a == 0) continue;
+    const Vec3 a = problem.relaxation[p], k = problem.exchange[p];
+    if (a == Vec3{}) continue;
     const Stencil& s = problem.stencils[p];
-    deposit(s, stride, -problem.exchange[p] * a / (1 + a) * sample(s, stride, x), out);
+    const Vec3 share{-k.x * a.x / (1 + a.x), -k.y * a.y / (1 + a.y), -k.z * a.z / (1 + a.z)};
+    deposit(s, stride, scaled(share, sample(s, stride, x)), out);
   }
   fold_deposits(g, out);
   if (problem.implicit_viscosity > 0) {

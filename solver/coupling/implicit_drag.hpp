@@ -9,10 +9,11 @@
 namespace bedload {
 
 /// One step's drag problem (docs/physics_coupling.md). Per grain, by id:
-///   exchange K = beta_p T/(rho_f V_c) [-], relaxation a = beta_p T/M [-] (0 for fixed grains), ballistic velocity vt [m/s].
+///   per axis: exchange K = beta_p T/(rho_f V_c) [-], relaxation a = beta_p T/M [-] (0 for fixed grains); ballistic
+///   velocity vt [m/s].
 struct DragProblem {
   std::span<const Stencil> stencils;
-  std::span<const double> exchange, relaxation;
+  std::span<const Vec3> exchange, relaxation;
   std::span<const Vec3> ballistic;
   std::span<const Vec3> flow_velocity;   // u^n at the grains [m/s]
   double implicit_viscosity = 0;         // T nu [m2], or 0 where viscosity is explicit

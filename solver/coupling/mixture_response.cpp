@@ -21,21 +21,21 @@ void deposit_mobile(const Stencil& s, Strides stride, double exchange, double vo
 }   // namespace
 
 void find_mixture_response(const StaggeredGrid& g, const Grains& grains, std::span<const Stencil> stencils,
-                           std::span<const double> exchange, double fluid_density, const FaceFields& void_fraction,
+                           std::span<const Vec3> exchange, double fluid_density, const FaceFields& void_fraction,
                            bool model_b, MixtureResponse& m) {
   clear(m.locked_exchange), clear(m.mobile_exchange), clear(m.mobile_fraction), clear(m.mobile_inertia);
   const Strides stride(g);
   for (std::size_t p = 0; p < grains.size(); ++p) {
-    const double k = exchange[p];
+    const Vec3 k = exchange[p];
     if (grains.fixed[p]) {
-      deposit(stencils[p], stride, {k, k, k}, m.locked_exchange);
+      deposit(stencils[p], stride, k, m.locked_exchange);
       continue;
     }
     const double volume = sphere_volume(grains.diameter[p]) / g.cell_volume(),
                  mass = volume * grains.density[p] / fluid_density;
-    deposit_mobile<on_x_faces>(stencils[p], stride, k, volume, mass, m);
-    deposit_mobile<on_y_faces>(stencils[p], stride, k, volume, mass, m);
-    deposit_mobile<on_z_faces>(stencils[p], stride, k, volume, mass, m);
+    deposit_mobile<on_x_faces>(stencils[p], stride, k.x, volume, mass, m);
+    deposit_mobile<on_y_faces>(stencils[p], stride, k.y, volume, mass, m);
+    deposit_mobile<on_z_faces>(stencils[p], stride, k.z, volume, mass, m);
   }
   for (FaceFields* f : {&m.locked_exchange, &m.mobile_exchange, &m.mobile_fraction, &m.mobile_inertia})
     fold_deposits(g, *f);

@@ -30,7 +30,7 @@ struct MixtureResponse {
 ///   (eps + B_L + B_M) cf - B_M cp = eps,   (phi_M s + B_M) cp - B_M cf = phi_M     (Model A)
 /// with 1 and 0 on the right in Model B, where pressure acts on the fluid alone.
 void find_mixture_response(const StaggeredGrid&, const Grains&, std::span<const Stencil>,
-                           std::span<const double> exchange, double fluid_density, const FaceFields& void_fraction,
+                           std::span<const Vec3> exchange, double fluid_density, const FaceFields& void_fraction,
                            bool model_b, MixtureResponse&);
 
 }   // namespace bedload
