@@ -57,10 +57,10 @@ void advance_bed(benchmark::State& state, double shear) {
   }
   constexpr int substeps = 10;
   GrainHealth health;
+  const GrainDrive drive{.push = push, .relaxation = relaxation};
   for (int warm = 0; warm < 100; ++warm)
-    dynamics.advance(bed.grains, bed.contacts, push, relaxation, bed.scene.dem_step, substeps, 0);
-  for (auto _ : state)
-    health = dynamics.advance(bed.grains, bed.contacts, push, relaxation, bed.scene.dem_step, substeps, 0);
+    dynamics.advance(bed.grains, bed.contacts, drive, bed.scene.dem_step, substeps, 0);
+  for (auto _ : state) health = dynamics.advance(bed.grains, bed.contacts, drive, bed.scene.dem_step, substeps, 0);
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * substeps * bed.grains.size()));
   state.counters["contacts_per_grain"] = static_cast<double>(health.contacts) / static_cast<double>(bed.grains.size());
   double speed = 0;

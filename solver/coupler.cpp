@@ -323,8 +323,8 @@ void Coupler::Parts::move_grains(State& state, double dt) {
   Grains& grains = state.grains;
   moved.assign(grains.size(), {});
   if (health.substeps == 0) return;
-  const GrainHealth contact =
-      dynamics.advance(grains, state.contacts, push, {}, dt / health.substeps, health.substeps, state.search.lid_speed);
+  const GrainHealth contact = dynamics.advance(grains, state.contacts, {.push = push}, dt / health.substeps,
+                                               health.substeps, state.search.lid_speed);
   health.deepest_overlap = contact.deepest_overlap;
   books.contact_on_walls = contact.force_on_walls;
   const Vec3 length = scene.bed.length;

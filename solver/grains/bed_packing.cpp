@@ -70,8 +70,8 @@ BedPacking::~BedPacking() = default;
 
 BedPacking::Progress BedPacking::advance(Grains& grains, ContactHistory& contacts) {
   parts_->set_forces(grains);
-  parts_->dynamics.advance(grains, contacts, parts_->push, parts_->relaxation, parts_->scene.dem_step,
-                           substeps_per_interval, 0);
+  const GrainDrive drive{.push = parts_->push, .relaxation = parts_->relaxation};
+  parts_->dynamics.advance(grains, contacts, drive, parts_->scene.dem_step, substeps_per_interval, 0);
   parts_->wrap(grains);
   return parts_->judge(grains);
 }

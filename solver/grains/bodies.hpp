@@ -23,6 +23,8 @@ struct alignas(32) Load {
   double unused = 0;
   Vec3 torque;   // [N m]
   double unused_too = 0;
+
+  Load& operator+=(const Load& b) { return force += b.force, torque += b.torque, *this; }
 };
 static_assert(sizeof(Load) == 64);
 

@@ -15,7 +15,7 @@ namespace bedload {
 struct GrainDynamics::Workspace {
   explicit Workspace(const BedScene& scene) : rough(scene.grains), smooth(rough.without_friction()), list(scene) {}
 
-  void take(const Grains&, std::span<const double> relaxation, double dt);
+  void take(const Grains&, const GrainDrive&, double dt);
   void give(Grains&, int substeps) const;
   void prepare_list(ContactHistory&, double dt, bool list_holds_springs);
   double deepest_overlap() const;
@@ -24,27 +24,29 @@ struct GrainDynamics::Workspace {
   NeighbourList list;
   std::vector<Body> bodies;
   std::vector<Load> loads;
-  std::vector<Vec3> sum_of_forces;
+  std::vector<Load> sum_of_loads;
   std::vector<double> damp;
 };
 
-void GrainDynamics::Workspace::take(const Grains& grains, std::span<const double> relaxation, double dt) {
+void GrainDynamics::Workspace::take(const Grains& grains, const GrainDrive& drive, double dt) {
   const std::size_t n = grains.size();
   bodies.resize(n), loads.resize(n), damp.resize(n);
-  sum_of_forces.assign(n, {});
+  sum_of_loads.assign(n, {});
   for (std::size_t i = 0; i < n; ++i) {
     const double mass = grains.density[i] * sphere_volume(grains.diameter[i]);
+    const double inertia = drive.added_mass.empty() ? mass : mass + drive.added_mass[i];
     const bool fixed = grains.fixed[i] != 0;
     bodies[i] = {grains.position[i], 0.5 * grains.diameter[i],
-                 grains.velocity[i], fixed ? 0 : 1 / mass,
+                 grains.velocity[i], fixed ? 0 : 1 / inertia,
                  grains.spin[i],     fixed ? 0 : 1 / sphere_inertia(mass, grains.diameter[i])};
-    damp[i] = relaxation.empty() ? 1 : 1 / (1 + dt * relaxation[i]);
+    damp[i] = drive.relaxation.empty() ? 1 : 1 / (1 + dt * drive.relaxation[i]);
   }
 }
 
 void GrainDynamics::Workspace::give(Grains& grains, int substeps) const {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    grains.mean_contact_force[i] = sum_of_forces[i] / substeps;
+    grains.mean_contact_force[i] = sum_of_loads[i].force / substeps;
+    grains.mean_contact_torque[i] = sum_of_loads[i].torque / substeps;
     if (grains.fixed[i]) continue;
     grains.position[i] = bodies[i].position;
     grains.velocity[i] = bodies[i].velocity;
@@ -73,23 +75,24 @@ double GrainDynamics::Workspace::deepest_overlap() const {
   return deepest;
 }
 
-GrainDynamics::GrainDynamics(const BedScene& scene) : work_(std::make_unique<Workspace>(scene)) {}
+GrainDynamics::GrainDynamics(const BedScene& scene, ContactTerms) : work_(std::make_unique<Workspace>(scene)) {}
 GrainDynamics::~GrainDynamics() = default;
 void GrainDynamics::forget() { work_->list.forget(); }
 
-GrainHealth GrainDynamics::advance(Grains& grains, ContactHistory& contacts, std::span<const Vec3> push,
-                                   std::span<const double> relaxation, double dt, int substeps, double lid_speed) {
+GrainHealth GrainDynamics::advance(Grains& grains, ContactHistory& contacts, const GrainDrive& drive, double dt,
+                                   int substeps, double lid_speed) {
   Workspace& w = *work_;
   GrainHealth health;
-  w.take(grains, relaxation, dt);
+  w.take(grains, drive, dt);
   for (int s = 0; s < substeps; ++s) {
     w.prepare_list(contacts, dt, s > 0);
     std::ranges::fill(w.loads, Load{});
     add_pair_forces(w.rough, w.list.box(), w.bodies, dt, w.list.pairs, w.loads);
     health.force_on_walls +=
         add_wall_forces(w.rough, w.smooth, w.list.walls(), w.bodies, dt, lid_speed, w.list.wall_contacts, w.loads);
-    for (std::size_t i = 0; i < w.loads.size(); ++i) w.sum_of_forces[i] += w.loads[i].force;
-    move_bodies(w.bodies, w.loads, push, w.damp, dt);
+    for (std::size_t i = 0; i < w.loads.size(); ++i) w.sum_of_loads[i] += w.loads[i];
+    spin_bodies(w.bodies, drive.spin_push, dt);
+    move_bodies(w.bodies, w.loads, drive.push, w.damp, dt);
   }
   w.list.save(contacts);
   w.give(grains, substeps);

@@ -16,19 +16,33 @@ struct GrainHealth {
   std::uint64_t contacts = 0;   // touching pairs at the end, walls included
 };
 
+/// What the liquid between two grains does to their collision: nothing, or one of the two.
+struct ContactTerms {
+  bool wet_restitution = false;   // the rebound falls with the Stokes number of the approach
+  bool lubrication = false;       // the film resists approach and parting, before contact and during it
+};
+
+/// What acts on the grains besides contacts, constant over a call: one entry per grain, or empty for none.
+struct GrainDrive {
+  std::span<const Vec3> push{};           // acceleration of the grain with its added mass [m/s2]; never empty
+  std::span<const double> relaxation{};   // rate of an implicit linear drag to rest [1/s]
+  std::span<const Vec3> spin_push{};      // angular acceleration [rad/s2]
+  std::span<const double> added_mass{};   // inertia of the liquid that moves with the grain, translation only [kg]
+};
+
 /// Advances the grains by sub-steps of {contact forces at x^n, v^n; v += dt (push + F/m); x += dt v} (symplectic Euler:
 /// no hidden memory). Sums of contact forces are in order of partner id. Positions are not wrapped here: they may leave
 /// a periodic box during the call. Fixed grains keep position, velocity and spin.
 class GrainDynamics {
  public:
-  explicit GrainDynamics(const BedScene&);
+  /// The liquid of the terms is scene.fluid.
+  explicit GrainDynamics(const BedScene&, ContactTerms = {});
   ~GrainDynamics();
 
-  /// `push`: constant acceleration of each grain [m/s2] (everything but contacts). `relaxation`: rate of an implicit
-  /// linear drag to rest [1/s] per grain, or empty. `lid_speed`: of the top wall along x [m/s].
-  /// On return velocity, position, spin, contacts are those of the end, mean_contact_force the mean over the sub-steps.
-  GrainHealth advance(Grains&, ContactHistory&, std::span<const Vec3> push, std::span<const double> relaxation,
-                      double dt, int substeps, double lid_speed);
+  /// `lid_speed`: of the top wall along x [m/s]. On return velocity, position, spin, contacts are those of the end,
+  /// mean_contact_force and mean_contact_torque the means over the sub-steps. Contacts see a grain's mass with its added
+  /// mass, so that they rebound as they were asked to.
+  GrainHealth advance(Grains&, ContactHistory&, const GrainDrive&, double dt, int substeps, double lid_speed);
 
   /// Forgets all scratch (the neighbour list).
   void forget();

@@ -14,4 +14,9 @@ void move_bodies(std::span<Body> bodies, std::span<const Load> loads, std::span<
   }
 }
 
+void spin_bodies(std::span<Body> bodies, std::span<const Vec3> spin_push, double dt) noexcept {
+  for (std::size_t i = 0; i < spin_push.size(); ++i)
+    if (bodies[i].inverse_mass != 0) bodies[i].spin += dt * spin_push[i];
+}
+
 }   // namespace bedload

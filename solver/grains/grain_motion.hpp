@@ -12,4 +12,7 @@ namespace bedload {
 void move_bodies(std::span<Body>, std::span<const Load>, std::span<const Vec3> push, std::span<const double> damp,
                  double dt) noexcept;
 
+/// Turns mobile bodies faster by `spin_push` [rad/s2]; empty: nothing happens.
+void spin_bodies(std::span<Body>, std::span<const Vec3> spin_push, double dt) noexcept;
+
 }   // namespace bedload

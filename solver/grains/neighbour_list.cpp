@@ -31,8 +31,17 @@ NeighbourList::NeighbourList(const BedScene& scene) : box_(scene), walls_(walls_
 bool NeighbourList::same_grains(std::span<const Body> bodies) const noexcept {
   if (origin_.size() != bodies.size()) return false;
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].radius != radius_[i] || bodies[i].inverse_mass != inverse_mass_[i]) return false;
+    if (bodies[i].radius != radius_[i] || (bodies[i].inverse_mass == 0) != (inverse_mass_[i] == 0)) return false;
   return true;
+}
+
+/// Masses of the contacts, if any grain's has changed.
+void NeighbourList::weigh(std::span<const Body> bodies) noexcept {
+  if (std::ranges::equal(bodies, inverse_mass_, {}, &Body::inverse_mass)) return;
+  std::ranges::transform(bodies, inverse_mass_.begin(), &Body::inverse_mass);
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    pairs.mass[k] = reduced_mass(bodies[pairs.ids.lower[k]], bodies[pairs.ids.higher[k]]);
+  for (WallContact& c : wall_contacts) c.mass = 1 / bodies[c.grain].inverse_mass;
 }
 
 bool NeighbourList::covers(std::span<const Body> bodies) noexcept {
@@ -41,7 +50,9 @@ bool NeighbourList::covers(std::span<const Body> bodies) noexcept {
     const Vec3 moved = box_.shortest(bodies[i].position - origin_[i].position);
     origin_[i].position = bodies[i].position - moved;   // the image that belongs to the body
   }
-  return still_covers(bodies);
+  if (!still_covers(bodies)) return false;
+  weigh(bodies);
+  return true;
 }
 
 bool NeighbourList::still_covers(std::span<const Body> bodies) const noexcept {

@@ -40,7 +40,7 @@ class NeighbourList {
   explicit NeighbourList(const BedScene&);
 
   /// True if the list is of these very grains, and every pair that may touch now is in it. `bodies` may have been
-  /// wrapped since the list was made.
+  /// wrapped since the list was made, and may be heavier or lighter now (added mass).
   bool covers(std::span<const Body> bodies) noexcept;
   /// The same, for grains that have only moved since `covers` or `rebuild`.
   bool still_covers(std::span<const Body> bodies) const noexcept;
@@ -69,6 +69,7 @@ class NeighbourList {
     double skin2;    // square of the skin [m2]
   };
   bool same_grains(std::span<const Body> bodies) const noexcept;
+  void weigh(std::span<const Body> bodies) noexcept;
 
   std::vector<Origin> origin_;
   std::vector<double> radius_, inverse_mass_;   // then

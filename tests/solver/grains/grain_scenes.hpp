@@ -64,7 +64,7 @@ inline double kinetic_energy(const Grains& grains) {
 inline GrainHealth coast(GrainDynamics& dynamics, Grains& grains, ContactHistory& contacts, double dt, int substeps = 1,
                          Vec3 push = {}) {
   const std::vector<Vec3> pushes(grains.size(), push);
-  return dynamics.advance(grains, contacts, pushes, {}, dt, substeps, 0);
+  return dynamics.advance(grains, contacts, {.push = pushes}, dt, substeps, 0);
 }
 
 /// A dense gas of unequal grains that moves fast enough for lists to be made anew often; one in ten is fixed.
