@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "base/durable_file.hpp"
 #include "base/error.hpp"
 #include "solver/bed/incipient_motion.hpp"
 #include "solver/coupling/drag_laws.hpp"
@@ -30,8 +29,9 @@ std::string joined(std::string_view table, std::string_view key) { return fmt::f
 /// Resolves one case, key by key, in the order in which keys depend on each other.
 class Resolver : InputList {
  public:
-  Resolver(const Settings& settings, const std::filesystem::path& directory, Problems& problems)
-      : InputList(settings, problems), directory_(directory) {}
+  Resolver(const Settings& settings, const std::filesystem::path& directory, Problems& problems,
+           const TableReader& read_table)
+      : InputList(settings, problems), directory_(directory), read_table_(read_table) {}
 
   CaseInputs run();
 
@@ -53,6 +53,7 @@ class Resolver : InputList {
   double rayleigh_time_of_smallest() const;
 
   const std::filesystem::path& directory_;
+  const TableReader& read_table_;
   Grains table_grains_;   // of bed.file
 };
 
@@ -134,7 +135,7 @@ void Resolver::bed_table() {
   take("bed.file");
   if (!no_problems() || !inputs.has("bed.file") || !complete()) return;
   try {
-    inputs.csv = read_text(directory_ / word("bed.file"));
+    inputs.csv = read_table_(directory_ / word("bed.file"));
     table_grains_ = place_grains(scene_of(inputs).bed);
   } catch (const Error& error) {
     problem("bed.file", error.what(), error.hint);
@@ -296,8 +297,9 @@ const std::string& CaseInputs::word(std::string_view key) const {
   return std::get<std::string>(values.find(key)->second);
 }
 
-CaseInputs resolve(const Settings& settings, const std::filesystem::path& directory, Problems& problems) {
-  return Resolver(settings, directory, problems).run();
+CaseInputs resolve(const Settings& settings, const std::filesystem::path& directory, Problems& problems,
+                   const TableReader& read_table) {
+  return Resolver(settings, directory, problems, read_table).run();
 }
 
 std::string_view staircase_of(const CaseInputs& inputs) {

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "base/durable_file.hpp"
 #include "solver/scene.hpp"
 #include "studies/setting.hpp"
 
@@ -28,10 +30,13 @@ struct CaseInputs {
   bool operator==(const CaseInputs&) const = default;
 };
 
+/// Where the tables that a study file names are read.
+using TableReader = std::function<std::string(const std::filesystem::path&)>;
+
 /// Resolves the settings of one case: defaults filled in, grain diameters and grain times turned into SI, "auto" computed,
 /// `bed.file` read (relative to `directory`). What is wrong is reported at the place of the setting that it concerns; the
 /// inputs returned then are of no use.
-CaseInputs resolve(const Settings&, const std::filesystem::path& directory, Problems&);
+CaseInputs resolve(const Settings&, const std::filesystem::path& directory, Problems&, const TableReader& = read_text);
 
 DragLawName drag_law_named(std::string_view);
 

@@ -18,6 +18,7 @@
 #include "scheduler/heartbeat.hpp"
 #include "scheduler/request.hpp"
 #include "solver/experiment.hpp"
+#include "studies/ailment.hpp"
 #include "studies/case_file.hpp"
 #include "studies/performance.hpp"
 #include "studies/stop_signals.hpp"
@@ -29,7 +30,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double heartbeat_interval = 1;   // wall time [s]
-constexpr double hopeless_overlap = 0.5;   // of a contact, per diameter: grains have passed through each other
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -38,17 +38,6 @@ double cpu_seconds() {
   struct timespec spent {};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &spent);
   return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
-}
-
-/// Why a run cannot go on after such a step; empty if it can.
-std::string ailment(const StepHealth& health) {
-  if (!health.finite) return "a velocity, force or pressure is not finite";
-  if (health.lost_grain)
-    return fmt::format("a grain moved {:.2g} cells in one step, or its centre passed a wall", health.grain_travel);
-  if (health.deepest_overlap > hopeless_overlap)
-    return fmt::format("grains overlap by {:.2g} of a diameter (at most {} can be healed)", health.deepest_overlap,
-                       hopeless_overlap);
-  return {};
 }
 
 /// One attempt at one case.

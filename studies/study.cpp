@@ -129,14 +129,14 @@ void check_twins(const std::vector<Case>& cases, Problems& problems) {
 
 }   // namespace
 
-std::vector<Case> unfold(const Study& study) {
+std::vector<Case> unfold(const Study& study, const TableReader& read_table) {
   Problems problems(study.file.string());
   std::vector<Case> cases;
   std::set<std::string> placed;
   for (const auto& choice : product(study.axes)) {
     if (excluded(study, choice)) continue;
     const auto settings = settings_of(study, choice);
-    auto inputs = resolve(settings, study.file.parent_path(), problems);
+    auto inputs = resolve(settings, study.file.parent_path(), problems, read_table);
     if (!problems.empty()) continue;
     auto one = make_case(study, choice, std::move(inputs));
     for (const auto& p : problems_of(one.scene))

@@ -51,7 +51,7 @@ struct Case {
 
 /// The cases of a study: product of its axes without the exclusions, each resolved, validated and named. Reports all
 /// problems of all cases at once (Error study_invalid).
-std::vector<Case> unfold(const Study&);
+std::vector<Case> unfold(const Study&, const TableReader& = read_text);
 
 /// The directory that holds a study's results: named after the study, beside its file; or `out`.
 std::filesystem::path result_directory(const Study&, const std::optional<std::filesystem::path>& out);

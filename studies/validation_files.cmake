@@ -1,0 +1,11 @@
+# Writes the given files as C++ strings: the definition of studies/validation_files.hpp.
+set(source "// Generated from studies/validation/.\n#include \"studies/validation_files.hpp\"\n\n#include <vector>\n\n")
+string(APPEND source "namespace bedload {\n\nstd::span<const EmbeddedFile> validation_files() {\n")
+string(APPEND source "  static const std::vector<EmbeddedFile> files = {\n")
+foreach(file IN LISTS files)
+  get_filename_component(name "${file}" NAME)
+  file(READ "${file}" text)
+  string(APPEND source "{\"${name}\", R\"bedload(${text})bedload\"},\n")
+endforeach()
+string(APPEND source "};\n  return files;\n}\n\n}   // namespace bedload\n")
+file(WRITE "${output}" "${source}")
