@@ -46,24 +46,38 @@ void laplacian(const StaggeredGrid& g, const FaceFields& velocity, FaceFields& o
   clear_walls(g, out);
 }
 
-WallShear wall_shear(const StaggeredGrid& g, const FaceFields& velocity, double viscosity) {
+namespace {
+
+/// scale (u in the cells beside the wall - ghost)/h_z integrated over both walls, times at(c, index of the edge on the wall).
+template <class AtEdge>
+WallShear shear_on_walls(const StaggeredGrid& g, const FaceFields& velocity, double scale, AtEdge&& at) {
   WallShear shear;
   if (g.periodic(2)) return shear;
-  const double weight = viscosity * g.h.x * g.h.y / g.h.z;
+  const double weight = scale * g.h.x * g.h.y / g.h.z;
   for (int c = 0; c < 2; ++c) {
     const double* u = velocity.component(c);
     for (int i = c == 0 ? g.first_face(0) : 0; i < g.cells[0]; ++i) {
       double bottom = 0, top = 0;
       for (int j = c == 1 ? g.first_face(1) : 0; j < g.cells[1]; ++j) {
         const std::size_t low = g.index(i, j, 0), high = g.index(i, j, g.cells[2] - 1);
-        bottom += u[low] - u[low - 1];
-        top += u[high] - u[high + 1];
+        bottom += at(c, low) * (u[low] - u[low - 1]);
+        top += at(c, high + 1) * (u[high] - u[high + 1]);
       }
       shear.bottom[c] += weight * bottom;
       shear.top[c] += weight * top;
     }
   }
   return shear;
+}
+
+}   // namespace
+
+WallShear wall_shear(const StaggeredGrid& g, const FaceFields& velocity, double viscosity) {
+  return shear_on_walls(g, velocity, viscosity, [](int, std::size_t) { return 1.0; });
+}
+
+WallShear wall_shear(const StaggeredGrid& g, const FaceFields& velocity, const FaceFields& on_edge) {
+  return shear_on_walls(g, velocity, 1, [&](int c, std::size_t n) { return on_edge.component(1 - c)[n]; });
 }
 
 }   // namespace bedload

@@ -20,5 +20,7 @@ struct WallShear {
   Vec3 bottom, top;
 };
 WallShear wall_shear(const StaggeredGrid&, const FaceFields& velocity, double viscosity);
+/// The same with a viscosity that varies: on each wall that of `on_edge`, component t on the edges along t.
+WallShear wall_shear(const StaggeredGrid&, const FaceFields& velocity, const FaceFields& on_edge);
 
 }   // namespace bedload
