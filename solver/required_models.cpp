@@ -24,7 +24,8 @@ constexpr double channel_transition = 1500;      // of the mean speed, between p
 constexpr double rough_transition = 5;           // Re* up to which the bed is hydraulically smooth
 
 bool sheared(const Scene& scene) {
-  return scene.drive.kind != FlowRamp::Kind::none && scene.bed.sides[2] == Side::wall;
+  const bool flows = scene.drive.kind == FlowRamp::Kind::lid || scene.drive.kind == FlowRamp::Kind::pressure;
+  return flows && scene.bed.sides[2] == Side::wall;
 }
 bool has_grains(const Scene& scene) { return scene.bed.source.kind != BedSource::Kind::none; }
 

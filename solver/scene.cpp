@@ -74,6 +74,14 @@ void check_drive(const Scene& scene, Found& found) {
         {"drive.kind", "a lid drives the flow only where the box has one", "box.z = \"wall\" and box.top = \"lid\""});
   if (scene.drive.kind == Kind::pressure && bed.sides[0] == Side::wall)
     found.push_back({"drive.kind", "a pressure gradient moves nothing between walls in x", "box.x = \"periodic\""});
+  if (scene.drive.kind == Kind::through_flow && walls)
+    found.push_back({"drive.kind", "no net flux along z passes between bottom and top", "box.z = \"periodic\""});
+  if (scene.drive.kind == Kind::push && (bed.grains.density <= bed.fluid.density || norm2(bed.gravity) == 0))
+    found.push_back({"drive.kind", "grains without submerged weight cannot be pushed by a share of it",
+                     "heavier grains, or gravity"});
+  if (scene.fluid_start == FluidStart::taylor_green && !(scene.grid.periodic(0) && scene.grid.periodic(1)))
+    found.push_back({"fluid.start", "Taylor-Green vortices need a box that is periodic in x and y",
+                     "box.x = \"periodic\" and box.y = \"periodic\""});
   if (scene.drive.kind == Kind::none || scene.drive.quantity != FlowRamp::Quantity::shields) return;
   if (!walls)
     found.push_back({"drive.shields.from",

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "solver/bed/flow_ramp.hpp"
@@ -12,6 +13,11 @@
 namespace bedload {
 
 enum class DragLawName { stokes, schiller_naumann, di_felice, ergun, gidaspow, koch_hill, beetstra, tang, rong };
+
+inline constexpr DragLawName drag_law_names[] = {
+    DragLawName::stokes,   DragLawName::schiller_naumann, DragLawName::di_felice, DragLawName::ergun,
+    DragLawName::gidaspow, DragLawName::koch_hill,        DragLawName::beetstra,  DragLawName::tang,
+    DragLawName::rong};
 
 /// Which forces act between fluid and grains (besides contacts and weight), and what the liquid does to a collision.
 struct Terms {
@@ -28,6 +34,26 @@ struct Terms {
   bool model_b() const { return !pressure_gradient; }
   bool operator==(const Terms&) const = default;
 };
+
+/// The terms by the names that study files and the database give them.
+struct NamedTerm {
+  std::string_view name;
+  bool Terms::*term;
+};
+inline constexpr NamedTerm named_terms[] = {{"drag", &Terms::drag},
+                                            {"buoyancy", &Terms::buoyancy},
+                                            {"pressure_gradient", &Terms::pressure_gradient},
+                                            {"viscous_stress", &Terms::viscous_stress},
+                                            {"self_disturbance", &Terms::self_disturbance},
+                                            {"added_mass", &Terms::added_mass},
+                                            {"shear_lift", &Terms::shear_lift},
+                                            {"magnus", &Terms::magnus},
+                                            {"viscous_torque", &Terms::viscous_torque},
+                                            {"wall_forces", &Terms::wall_forces},
+                                            {"wet_restitution", &Terms::wet_restitution},
+                                            {"lubrication", &Terms::lubrication},
+                                            {"exposure", &Terms::exposure},
+                                            {"turbulence", &Terms::turbulence}};
 
 /// The fluid before anything has moved.
 enum class FluidStart { rest, taylor_green };

@@ -15,6 +15,7 @@
 #include "solver/grains/bed_packing.hpp"
 #include "solver/grains/grain_dynamics.hpp"
 #include "studies/input_list.hpp"
+#include "studies/study_keys.hpp"
 
 namespace bedload {
 
@@ -22,7 +23,17 @@ namespace {
 
 constexpr std::string_view ramp_parts[] = {"from", "ratio", "step", "steps"};
 constexpr double most_levels = 10'000, most_steps = 0x1p53;
-constexpr std::string_view staircases[] = {"drive.shields", "drive.speed", "drive.gradient"};
+constexpr std::string_view staircases[] = {"drive.shields", "drive.speed", "drive.gradient", "drive.push",
+                                           "drive.through_flow"};
+
+/// What else than a Shields number the levels of a drive may count.
+std::string_view own_staircase(std::string_view kind) {
+  return kind == "lid"        ? "drive.speed"
+         : kind == "pressure" ? "drive.gradient"
+         : kind == "push"     ? "drive.push"
+                              : "drive.through_flow";
+}
+bool takes_shields(std::string_view kind) { return kind == "lid" || kind == "pressure"; }
 
 std::string joined(std::string_view table, std::string_view key) { return fmt::format("{}.{}", table, key); }
 
@@ -44,6 +55,8 @@ class Resolver : InputList {
   void count_from_depth();
   void drive();
   void staircase(std::string_view table);
+  void start();
+  void take_unless_default(std::string_view key);
   void onset();
   void models();
   void grains();
@@ -86,9 +99,24 @@ void Resolver::measure_in_grains() {
   scales.time = grain_time(d, s, g, terminal_speed(law, number("fluid.viscosity"), s, d, g));
 }
 
+/// A key at the value that stands for its absence is left out: a new key renames no case.
+void Resolver::take_unless_default(std::string_view key) {
+  const auto fallback = fallback_of(*find_key(key));
+  if (given(key) && !(fallback && same_value(*setting(key), *fallback))) take(key);
+}
+
+void Resolver::start() {
+  take_unless_default("fluid.start");
+  const bool vortices = inputs.has("fluid.start");
+  if (!vortices) return refuse("fluid.start_speed", "a fluid that starts at rest has no speed");
+  if (!given("fluid.start_speed")) return missing("fluid.start_speed", "for example start_speed = \"1 mm/s\"");
+  take("fluid.start_speed");
+}
+
 void Resolver::box() {
   take_all(
       {"box.length", "box.width", "box.height", "box.cell.xy", "box.cell.z", "box.x", "box.y", "box.z", "box.top"});
+  take_unless_default("box.roughness");
   for (const auto& [cell, edge] :
        {std::pair{"box.cell.xy", "box.length"}, {"box.cell.xy", "box.width"}, {"box.cell.z", "box.height"}}) {
     if (!inputs.has(cell) || !inputs.has(edge) || number(cell) <= number(edge)) continue;
@@ -154,10 +182,16 @@ void Resolver::drive() {
     for (const auto table : found) refuse(joined(table, "from"), "drive.kind = \"none\" leaves the fluid alone");
     return;
   }
-  const std::string_view other = kind == "lid" ? "drive.speed" : "drive.gradient";
-  if (found.size() == 1 && (found[0] == "drive.shields" || found[0] == other)) return staircase(found[0]);
-  problem("drive.kind", fmt::format("\"{}\" wants one of drive.shields and {}", kind, other),
-          "for example: shields = { from = 0.06, ratio = 1.2, steps = 12 }");
+  take_unless_default("drive.start");
+  const auto own = own_staircase(kind);
+  const bool fits = found.size() == 1 && (found[0] == own || (found[0] == "drive.shields" && takes_shields(kind)));
+  if (fits) return staircase(found[0]);
+  if (takes_shields(kind))
+    return problem("drive.kind", fmt::format("\"{}\" wants one of drive.shields and {}", kind, own),
+                   "for example: shields = { from = 0.06, ratio = 1.2, steps = 12 }");
+  problem("drive.kind", fmt::format("\"{}\" wants {} and no other levels", kind, own),
+          kind == "push" ? "for example: push = { from = 0.3, step = 0.01, steps = 12 }"
+                         : "for example: through_flow = { from = \"1 mm/s\", ratio = 1.2, steps = 12 }");
 }
 
 void Resolver::staircase(std::string_view table) {
@@ -272,11 +306,9 @@ CaseInputs Resolver::run() {
   models();
   measure_in_grains();
   take_all({"grains.spread", "grains.friction", "grains.restitution", "grains.poisson"});
+  take_unless_default("grains.rolling_friction");
+  start();
   box();
-  if (const auto rolling = setting("grains.rolling_friction"); std::get<double>(rolling->value) != 0)
-    problem("grains.rolling_friction",
-            fmt::format("{} asks for rolling friction, which is not in this version", rolling->text),
-            "rolling_friction = 0.0");
   drive();
   onset();
   take("record.every");

@@ -58,7 +58,8 @@ BedScene bed_scene_of(const CaseInputs& inputs) {
                 .friction = inputs.number("grains.friction"),
                 .restitution = inputs.number("grains.restitution"),
                 .poisson = inputs.number("grains.poisson"),
-                .young_modulus = number_or_zero(inputs, "grains.stiffness")};
+                .young_modulus = number_or_zero(inputs, "grains.stiffness"),
+                .rolling_friction = number_or_zero(inputs, "grains.rolling_friction")};
   bed.source = source_of(inputs);
   bed.length = {inputs.number("box.length"), inputs.number("box.width"), inputs.number("box.height")};
   bed.sides = {side_of(inputs, "box.x"), side_of(inputs, "box.y"), side_of(inputs, "box.z")};
@@ -95,10 +96,15 @@ FlowRamp drive_of(const CaseInputs& inputs) {
   const auto& kind = inputs.word("drive.kind");
   const std::string table(staircase_of(inputs));
   if (kind == "none" || table.empty()) return ramp;
-  ramp.kind = kind == "lid" ? FlowRamp::Kind::lid : FlowRamp::Kind::pressure;
-  ramp.quantity = table == "drive.shields" ? FlowRamp::Quantity::shields
-                  : table == "drive.speed" ? FlowRamp::Quantity::lid_speed
-                                           : FlowRamp::Quantity::gradient;
+  ramp.kind = kind == "lid"        ? FlowRamp::Kind::lid
+              : kind == "pressure" ? FlowRamp::Kind::pressure
+              : kind == "push"     ? FlowRamp::Kind::push
+                                   : FlowRamp::Kind::through_flow;
+  ramp.quantity = table == "drive.shields"    ? FlowRamp::Quantity::shields
+                  : table == "drive.speed"    ? FlowRamp::Quantity::lid_speed
+                  : table == "drive.gradient" ? FlowRamp::Quantity::gradient
+                  : table == "drive.push"     ? FlowRamp::Quantity::push
+                                              : FlowRamp::Quantity::through_flow;
   ramp.levels = levels_of(inputs, table);
   return ramp;
 }
@@ -106,13 +112,15 @@ FlowRamp drive_of(const CaseInputs& inputs) {
 Terms terms_of(const CaseInputs& inputs) {
   const auto& names = std::get<std::vector<std::string>>(inputs.values.at("models.terms"));
   const auto on = [&](const char* term) { return std::ranges::find(names, term) != names.end(); };
-  return {on("drag"), on("buoyancy"), on("pressure_gradient"), on("viscous_stress")};
+  Terms terms;
+  for (const auto& [name, term] : named_terms) terms.*term = on(name.data());
+  return terms;
 }
 
 }   // namespace
 
 DragLawName drag_law_named(std::string_view name) {
-  for (const auto law : {DragLawName::stokes, DragLawName::schiller_naumann, DragLawName::di_felice})
+  for (const auto law : drag_law_names)
     if (name_of(law) == name) return law;
   throw Error(ErrorKind::internal, fmt::format("\"{}\" is a drag law of study files, but not of the solver", name));
 }
@@ -123,6 +131,10 @@ Scene scene_of(const CaseInputs& inputs) {
   scene.bed_only = inputs.bed_only;
   scene.grid = grid_of(inputs, scene.bed);
   scene.drive = drive_of(inputs);
+  scene.developed = !inputs.has("drive.start");
+  if (inputs.has("fluid.start")) scene.fluid_start = FluidStart::taylor_green;
+  scene.start_speed = number_or_zero(inputs, "fluid.start_speed");
+  scene.bottom_roughness = number_or_zero(inputs, "box.roughness");
   scene.onset.method = inputs.word("onset.method") == "ramp" ? Onset::Method::ramp : Onset::Method::none;
   scene.onset.criterion =
       inputs.word("onset.criterion") == "flux" ? Onset::Criterion::flux : Onset::Criterion::moving_fraction;

@@ -43,17 +43,18 @@ constexpr StudyKey not_physics(StudyKey key) {
   return key;
 }
 
-constexpr std::string_view later_laws =
-    "oseen|brown_lawler|dallavalle|rong|wen_yu|ergun|gidaspow_ergun_wen_yu|beetstra|tenneti|tang";
-constexpr std::string_view later_terms =
-    "added_mass|shear_lift|magnus|lubrication|viscous_torque|self_disturbance|wall_drag|turbulence";
-constexpr std::string_view terms = "drag|buoyancy|pressure_gradient|viscous_stress";
+constexpr std::string_view laws = "stokes|schiller_naumann|di_felice|ergun|gidaspow|koch_hill|beetstra|tang|rong";
+constexpr std::string_view terms =
+    "drag|buoyancy|pressure_gradient|viscous_stress|self_disturbance|added_mass|shear_lift|magnus|viscous_torque|"
+    "wall_forces|wet_restitution|lubrication|exposure|turbulence";
 
 constexpr StudyKey keys[] = {
     not_physics(text("name", "")),
 
     amount("fluid.density", dimension::density, "rhof"),
     amount("fluid.viscosity", dimension::viscosity, "nu"),
+    word("fluid.start", "start", "rest|taylor_green", "rest"),
+    amount("fluid.start_speed", dimension::speed, "u0"),
 
     amount("grains.diameter", dimension::length, "d"),
     amount("grains.density", dimension::density, "rho"),
@@ -79,10 +80,12 @@ constexpr StudyKey keys[] = {
     word("box.y", "y", "periodic|wall", "periodic"),
     word("box.z", "z", "periodic|wall", "wall"),
     word("box.top", "top", "lid|free-slip", "lid"),
+    {"box.roughness", Kind::quantity, dimension::length, Range::not_negative, {}, {}, "0 m", true, "ks"},
     {"box.gravity", Kind::quantity, dimension::acceleration, Range::not_negative, {}, {}, "9.81 m/s2", true, "g"},
     {"box.slope", Kind::quantity, dimension::angle, Range::any, {}, {}, "0 deg", true, "slope"},
 
-    word("drive.kind", "drive", "lid|pressure|none", "none"),
+    word("drive.kind", "drive", "lid|pressure|push|through_flow|none", "none"),
+    word("drive.start", "begin", "developed|rest", "developed"),
     number("drive.shields.from", Range::positive, "theta"),
     number("drive.shields.ratio", Range::positive, "ratio"),
     number("drive.shields.step", Range::positive, "dtheta"),
@@ -95,6 +98,14 @@ constexpr StudyKey keys[] = {
     number("drive.gradient.ratio", Range::positive, "ratio"),
     signed_amount("drive.gradient.step", dimension::pressure_gradient, "dG"),
     not_physics(count("drive.gradient.steps", "")),
+    number("drive.push.from", Range::positive, "F"),
+    number("drive.push.ratio", Range::positive, "ratio"),
+    number("drive.push.step", Range::positive, "dF"),
+    not_physics(count("drive.push.steps", "")),
+    signed_amount("drive.through_flow.from", dimension::speed, "q"),
+    number("drive.through_flow.ratio", Range::positive, "ratio"),
+    signed_amount("drive.through_flow.step", dimension::speed, "dq"),
+    not_physics(count("drive.through_flow.steps", "")),
     amount("drive.dwell", dimension::time, "dwell", "25 td"),
 
     word("onset.method", "onset", "ramp|none", {}, "bisect"),
@@ -102,8 +113,8 @@ constexpr StudyKey keys[] = {
     not_physics(number("onset.value", Range::positive, "", "1e-2")),
 
     word("models.fluid", "fluid", "auto|box", "auto", "profile|column"),
-    word("models.drag", "drag", "stokes|schiller_naumann|di_felice", "di_felice", later_laws),
-    {"models.terms", Kind::words, dimension::number, Range::any, terms, later_terms, "auto", true, "terms"},
+    word("models.drag", "drag", laws, "di_felice"),
+    {"models.terms", Kind::words, dimension::number, Range::any, terms, {}, "auto", true, "terms"},
 
     amount("steps.dem", dimension::time, "dt", "auto", "auto"),
     amount("steps.fluid", dimension::time, "T", "auto", "auto"),

@@ -83,9 +83,6 @@ TEST_F(BadInput, KeyOfALaterVersion) {
            Later{"", "wall_limit = \"1 h\"", "run.wall_limit is not in this version (a wall time limit per attempt)"},
            Later{"[models]\n", "fluid = \"profile\"", "models.fluid: \"profile\" is not in this version"},
            Later{"[models]\n", "fluid = \"column\"", "models.fluid: \"column\" is not in this version"},
-           Later{"[models]\n", "drag = \"beetstra\"", "models.drag: \"beetstra\" is not in this version"},
-           Later{"[models]\n", "terms = [\"drag\", \"added_mass\"]",
-                 "models.terms[2]: \"added_mass\" is not in this version"},
        })
     expect_refused(tiny_study + table + line + "\n", 65, message);
 }

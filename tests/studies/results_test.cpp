@@ -47,7 +47,7 @@ State finished_state() {
     h.momentum_residual.push_back(k == 0 ? -1 : 1e-9);
   }
   state.record.profiles = {{-1, -1}, {1e-4, 2e-4}, {0.4, 0.5}, {0, 0}, {0, 0}};
-  state.record.tracks = {{0.1}, {7}, {1}, {2}, {3}, {4}, {5}, {6}};
+  state.record.tracks = {{0.1}, {7}, {1}, {2}, {3}, {4}, {5}, {6}, {7}, {8}, {9}};
   return state;
 }
 
