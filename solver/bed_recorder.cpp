@@ -30,6 +30,35 @@ double grain_time_of(const Scene& scene) {
   return grain_time(d, s, g, fall);
 }
 
+void add(const StepHealth& step, HoldHealth& hold) {
+  const auto worst = [](double& sum, double value) { sum = std::max(sum, value); };
+  hold.shortest_step = hold.steps > 0 ? std::min(hold.shortest_step, step.dt) : step.dt;
+  hold.steps += 1;
+  worst(hold.longest_step, step.dt);
+  hold.retries += step.retries;
+  worst(hold.cfl, std::max(step.cfl, step.cfl_after));
+  worst(hold.deepest_overlap, step.deepest_overlap);
+  worst(hold.grain_travel, step.grain_travel);
+  worst(hold.divergence, step.divergence);
+  worst(hold.divergence_left, step.divergence_left);
+  hold.void_clamps += double(step.void_clamps);
+  hold.disturbance_clamps += double(step.disturbance_clamps);
+  worst(hold.pressure_iterations, step.pressure_iterations);
+  worst(hold.drag_iterations, step.drag_iterations);
+  hold.limited_by_cfl += step.limited_by == StepLimit::cfl;
+  hold.limited_by_drag += step.limited_by == StepLimit::drag;
+  hold.limited_by_travel += step.limited_by == StepLimit::travel;
+  hold.limited_by_contact += step.limited_by == StepLimit::contact;
+  hold.limited_by_weight += step.limited_by == StepLimit::weight;
+}
+
+void append(double hold, HoldHealth health, BedRecord::Health& rows) {
+  rows.hold.push_back(hold);
+  std::vector<std::vector<double>*> columns;
+  BedRecord::Health::Measures::each(rows.measures, [&](auto, auto& column, auto) { columns.push_back(&column); });
+  HoldHealth::each(health, [&, n = 0u](auto, double measure, auto) mutable { columns[n++]->push_back(measure); });
+}
+
 }   // namespace
 
 BedRecorder::BedRecorder(const Scene& scene)
@@ -60,7 +89,7 @@ void BedRecorder::after_step(State& state, const StepHealth& health, const StepB
   const double period = scene_.grid.periodic(0) ? scene_.bed.length.x : 0;
   const double events = double(count_events(state.grains, x_before_, period, scene_.bed.grains.diameter));
   const double moving = double(count_moving(state.grains, speed_scale_)) / surface_grains_;
-  const double on_bed = books.on_grains.x + books.on_bottom.x, outer = outer_force(state.grains, books);
+  const double on_bed = books.on_grains.x + books.on_bottom.x, outer = outer_force(state, books);
   const auto add_to = [&](Window& window) {
     window.duration += health.dt;
     window.events += events;
@@ -74,6 +103,7 @@ void BedRecorder::after_step(State& state, const StepHealth& health, const StepB
     search.block_events += events;
     close_block(state);
   }
+  add(health, search.health);
   if (state.clock.time >= search.next_sample) record_sample(state, health);
 }
 
@@ -88,15 +118,19 @@ void BedRecorder::close_block(State& state) const {
   search.block_events = 0;
 }
 
-/// Horizontal force from outside on fluid and grains: drive and tilted weight, less what bottom, lid and walls take up [N].
-double BedRecorder::outer_force(const Grains& grains, const StepBooks& books) const {
-  double tilted_weight = 0;
-  if (scene_.bed.gravity.x != 0)
+/// Horizontal force from outside on fluid and grains: drive, tilted weight and push, less what bottom, lid and walls take
+/// up [N].
+double BedRecorder::outer_force(const State& state, const StepBooks& books) const {
+  const Grains& grains = state.grains;
+  const Vec3 g = scene_.bed.gravity;
+  double on_grains = 0;
+  if (g.x != 0 || state.search.push != 0)
     for (std::size_t p = 0; p < grains.size(); ++p) {
       const double lifted = scene_.terms.buoyancy ? scene_.bed.fluid.density : 0;
-      tilted_weight += (grains.density[p] - lifted) * sphere_volume(grains.diameter[p]) * scene_.bed.gravity.x;
+      const double submerged = (grains.density[p] - lifted) * sphere_volume(grains.diameter[p]);
+      on_grains += submerged * (g.x + (grains.fixed[p] ? 0 : state.search.push * norm(g)));
     }
-  return books.driving.x + tilted_weight - books.on_bottom.x - books.on_lid.x - books.contact_on_walls.x;
+  return books.driving.x + on_grains - books.on_bottom.x - books.on_lid.x - books.contact_on_walls.x;
 }
 
 double BedRecorder::flux(double events, double duration) const {
@@ -185,6 +219,7 @@ void BedRecorder::close_hold(State& state) {
   row.flux_standard_error.push_back(flux(error_of_events, window.duration));
   row.moving_fraction.push_back(window.moving_time / window.duration);
   row.momentum_residual.push_back(momentum_residual(state.grains, window, now));
+  append(double(search.hold), search.health, state.record.health);
   record_profiles_of(state, double(search.hold));
 }
 

@@ -26,7 +26,7 @@ class BedRecorder {
   void close_block(State&) const;
   void record_sample(State&, const StepHealth&);
   void record_tracks(State&) const;
-  double outer_force(const Grains&, const StepBooks&) const;
+  double outer_force(const State&, const StepBooks&) const;
   double flux(double events, double duration) const;
   double measured_shields(const Search&, const Window&, const StreamwiseMomentum& now) const;
   double momentum_residual(const Grains&, const Window&, const StreamwiseMomentum& now) const;

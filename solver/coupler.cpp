@@ -12,6 +12,7 @@
 #include "solver/fluid/momentum.hpp"
 #include "solver/fluid/operators.hpp"
 #include "solver/fluid/pressure_projection.hpp"
+#include "solver/fluid/rows.hpp"
 #include "solver/grains/grain_dynamics.hpp"
 
 namespace bedload {
@@ -22,8 +23,9 @@ constexpr double largest_grain_travel = 0.2;   // of a cell edge
 constexpr double harmless_relaxation = 0.2;    // below it even explicit drag is stable
 constexpr double largest_relaxation = 200;     // a = beta T/M of any grain
 constexpr double explicit_viscosity_limit = 1.0 / 12;
-constexpr double pressure_tolerance =
-    1e-4;   // of the divergence the projection starts with; momentum does not depend on it
+// Of the divergence that the projection starts with. Momentum does not depend on it, and the kick leaves more than this
+// around grains that move; where none does, only the next limit counts, so that volume is kept whatever happens.
+constexpr double pressure_tolerance = 1e-4;
 constexpr double least_divergence = 1e-9;   // volume change per step that is not worth an iteration
 
 bool all_finite(const State& state) {
@@ -35,6 +37,10 @@ bool all_finite(const State& state) {
   for (const double q : state.fluid.pressure.values) finite &= std::isfinite(q);
   for (const Vec3& v : state.grains.velocity) finite &= std::isfinite(norm2(v));
   return finite;
+}
+
+bool any_mobile(const Grains& grains) {
+  return std::find(grains.fixed.begin(), grains.fixed.end(), 0) != grains.fixed.end();
 }
 
 class Stopwatch {
@@ -136,6 +142,7 @@ struct Coupler::Parts {
   void accelerate_faces(State&);
   void sample_at_grains(State&);
   double choose_step(const State&, double longest);
+  double courant_rate(const FaceFields& velocity) const;
   void limit_by_grains(const State&, double& step);
   void shorten(double& step, double limit, StepLimit by);
   void solve_drag(State&, double dt);
@@ -153,7 +160,11 @@ Coupler::~Coupler() = default;
 const StepBooks& Coupler::books() const { return parts_->books; }
 std::span<const Vec3> Coupler::drag_on_grains() const { return parts_->drag_force; }
 const StepTimes& Coupler::times() const { return parts_->times; }
-void Coupler::forget() { parts_ = std::make_unique<Parts>(parts_->scene); }
+void Coupler::forget() {
+  const StepTimes spent = parts_->times;
+  parts_ = std::make_unique<Parts>(parts_->scene);
+  parts_->times = spent;
+}
 
 StepHealth Coupler::step(State& state, double longest) {
   Parts& parts = *parts_;
@@ -205,6 +216,13 @@ void Coupler::Parts::accelerate_faces(State& state) {
     });
   }
   clear_walls(grid, acceleration);
+  fill_face_ghosts(grid, flux);
+  divergence(grid, flux, rhs);
+  double largest = 0;   // per time; choose_step makes it per step
+  for_each_cell_row(grid, [&](std::size_t row, int length) {
+    for (std::size_t n = row; n < row + length; ++n) largest = std::max(largest, std::abs(rhs[n]));
+  });
+  health.divergence_left = largest;
   const WallShear shear = wall_shear(grid, u, nu);
   const double rho = scene.bed.fluid.density;
   books.on_bottom = rho * shear.bottom, books.on_lid = rho * shear.top;
@@ -225,25 +243,30 @@ void Coupler::Parts::shorten(double& step, double limit, StepLimit by) {
   health.limited_by = by;
 }
 
-/// The longest step, in whole DEM steps, that every limit allows (docs/physics_coupling.md, "The fluid step").
-double Coupler::Parts::choose_step(const State& state, double longest) {
-  double rate = 0, step = longest;
+/// Cells that the flow crosses per time, summed over the directions [1/s]: CFL = rate x step.
+double Coupler::Parts::courant_rate(const FaceFields& velocity) const {
+  double rate = 0;
   for (int c = 0; c < 3; ++c) {
     double fastest = 0;
-    for_each_unknown_face(grid, c, [&, v = state.fluid.velocity.component(c)](std::size_t n) {
-      fastest = std::max(fastest, std::abs(v[n]));
-    });
+    for_each_unknown_face(
+        grid, c, [&, v = velocity.component(c)](std::size_t n) { fastest = std::max(fastest, std::abs(v[n])); });
     rate += fastest / grid.h[c];
   }
+  return rate;
+}
+
+/// The longest step, in whole DEM steps, that every limit allows (docs/physics_coupling.md, "The fluid step").
+double Coupler::Parts::choose_step(const State& state, double longest) {
+  const double rate = courant_rate(state.fluid.velocity);
+  double step = longest;
   if (rate > 0) shorten(step, largest_cfl / rate, StepLimit::cfl);
-  const bool any_mobile =
-      std::find(state.grains.fixed.begin(), state.grains.fixed.end(), 0) != state.grains.fixed.end();
-  if (any_mobile) {
+  if (any_mobile(state.grains)) {
     limit_by_grains(state, step);
     health.substeps = std::max(1, static_cast<int>(step / scene.bed.dem_step * (1 + 1e-12)));
     step = std::min(step, health.substeps * scene.bed.dem_step);
   }
   health.cfl = step * rate;
+  health.divergence_left *= step;
   return health.dt = step;
 }
 
@@ -382,7 +405,8 @@ void Coupler::Parts::project(State& state, double dt) {
   divergence(grid, solid_flux, rhs);
   std::fill(correction.values.begin(), correction.values.end(), 0.0);
   const PressureSolve solve =
-      pressure.solve(response.coefficient, rhs, correction, pressure_tolerance, least_divergence / (dt * dt));
+      pressure.solve(response.coefficient, rhs, correction, any_mobile(state.grains) ? pressure_tolerance : 0,
+                     least_divergence / (dt * dt));
   health.pressure_iterations = solve.iterations;
   health.converged &= solve.converged;
   health.divergence = solve.residual;
@@ -391,6 +415,7 @@ void Coupler::Parts::project(State& state, double dt) {
   kick_mixture(state, dt);
   for (std::size_t n = 0; n < correction.values.size(); ++n) state.fluid.pressure[n] += correction[n];
   health.finite = all_finite(state);
+  health.cfl_after = dt * courant_rate(state.fluid.velocity);
 }
 
 /// In a box without bottom or top, weight is borne by a uniform gradient: the one that lets just the volume pass that is

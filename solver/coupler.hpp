@@ -16,13 +16,17 @@ enum class StepLimit { asked, cfl, drag, travel, contact, weight };
 struct StepHealth {
   double dt = 0;      // fluid step [s]
   int substeps = 0;   // DEM steps in it
+  int retries = 0;    // times that it was undone and taken again shorter (Experiment)
   StepLimit limited_by = StepLimit::asked;
-  double cfl = 0;               // of the fluid [-]
+  double cfl = 0;               // of the fluid as the step found it [-]
+  double cfl_after = 0;         // the same step with the velocities it leaves [-]
   double deepest_overlap = 0;   // of a grain contact, per diameter of the smaller grain [-]
   double grain_travel = 0;      // farthest, per cell edge [-]
   double divergence = 0;        // residual of the projection's linear solve, of its right-hand side [-]
+  double divergence_left = 0;   // largest |div(eps u + J)| T that the step found: what the one before left [-]
   int drag_iterations = 0, pressure_iterations = 0;
-  std::uint64_t void_clamps = 0;   // grains whose void fraction was clamped in the drag law
+  std::uint64_t void_clamps = 0;          // grains whose void fraction was clamped in the drag law
+  std::uint64_t disturbance_clamps = 0;   // grains whose self-disturbance was outside its table
   bool converged = true;           // of both linear solves
   bool lost_grain = false;         // one crossed more than a cell in the step, or its centre passed a wall
   bool finite = true;

@@ -8,8 +8,40 @@
 #include "solver/bed/incipient_motion.hpp"
 #include "solver/bed_recorder.hpp"
 #include "solver/grains/bed_packing.hpp"
+#include "solver/initial_flow.hpp"
+#include "solver/step_judgement.hpp"
 
 namespace bedload {
+namespace {
+
+/// What a coupled step changes, kept to undo it; the record and the sums of the hold are written after it only.
+class StateBefore {
+ public:
+  void keep(const State& state) {
+    clock_ = state.clock;
+    fluid_ = state.fluid;
+    const Grains& grains = state.grains;
+    position_ = grains.position, velocity_ = grains.velocity, spin_ = grains.spin;
+    force_ = grains.mean_contact_force, torque_ = grains.mean_contact_torque;
+    contacts_ = state.contacts;
+  }
+  void restore(State& state) const {
+    state.clock = clock_;
+    state.fluid = fluid_;
+    Grains& grains = state.grains;
+    grains.position = position_, grains.velocity = velocity_, grains.spin = spin_;
+    grains.mean_contact_force = force_, grains.mean_contact_torque = torque_;
+    state.contacts = contacts_;
+  }
+
+ private:
+  Clock clock_;
+  FluidState fluid_;
+  std::vector<Vec3> position_, velocity_, spin_, force_, torque_;
+  ContactHistory contacts_;
+};
+
+}   // namespace
 
 struct Experiment::Parts {
   explicit Parts(const Scene& given)
@@ -19,6 +51,7 @@ struct Experiment::Parts {
   Coupler coupler;
   BedRecorder recorder;
   std::unique_ptr<BedPacking> packing;
+  StateBefore before;   // scratch of coupled_step
 
   bool ramp_over(const State& state) const {
     return ramp_is_over(state.record, scene.onset, scene.drive.levels.size());
@@ -26,6 +59,7 @@ struct Experiment::Parts {
   void start_ramp(State&) const;
   StepHealth pack(State&);
   StepHealth hold(State&);
+  StepHealth coupled_step(State&);
   void begin_hold(State&) const;
   void add_steady_flow(State&, const ImposedFlow& change) const;
 };
@@ -37,14 +71,14 @@ void Experiment::forget() { parts_ = std::make_unique<Parts>(parts_->scene); }
 
 State Experiment::begin() const {
   State state;
-  state.fluid = FluidState(parts_->scene.grid);
+  state.fluid = initial_flow(parts_->scene);
   state.grains = place_grains(parts_->scene.bed);
   if (!needs_settling(parts_->scene.bed)) parts_->start_ramp(state);
   return state;
 }
 
 State Experiment::begin_on(State settled) const {
-  settled.fluid = FluidState(parts_->scene.grid);   // a bed's grid is not this scene's
+  settled.fluid = initial_flow(parts_->scene);   // a bed's grid is not this scene's
   settled.search = {};
   settled.record = {};
   parts_->start_ramp(settled);
@@ -94,8 +128,8 @@ StepHealth Experiment::Parts::hold(State& state) {
   Search& search = state.search;
   if (!search.hold_begun) begin_hold(state);
   recorder.before_step(state);
-  const StepHealth health = coupler.step(state, std::min(scene.steps.fluid_interval, scene.drive.dwell / 2));
-  if (!health.finite) return health;
+  const StepHealth health = coupled_step(state);
+  if (!ailment(health).empty()) return health;
   recorder.after_step(state, health, coupler.books());
   if (state.clock.time - search.hold_start < scene.drive.dwell) return health;
 
@@ -109,12 +143,41 @@ StepHealth Experiment::Parts::hold(State& state) {
   return health;
 }
 
+/// A step that went badly is undone and taken again at half its length. What is shorter stays so for a while: the ceiling is
+/// part of the state, so that a resumed run takes the same steps. After the last try the state is that before the step.
+StepHealth Experiment::Parts::coupled_step(State& state) {
+  const double asked = std::min(scene.steps.fluid_interval, scene.drive.dwell / 2);
+  double ceiling = state.clock.longest_step > 0 ? state.clock.longest_step : asked;
+  before.keep(state);
+  StepHealth health;
+  for (int retries = 0; retries <= most_retries; ++retries) {
+    health = coupler.step(state, std::min(asked, ceiling));
+    health.retries = retries;
+    if (ailment(health).empty()) break;
+    before.restore(state);
+    coupler.forget();   // scratch may hold anything
+    ceiling = health.dt / 2;
+  }
+  if (!ailment(health).empty()) return health;
+
+  Clock& clock = state.clock;
+  clock.retries += static_cast<std::uint64_t>(health.retries);
+  if (health.retries > 0) clock.longest_step = health.dt, clock.good_steps = 0;
+  if (clock.longest_step > 0 && ++clock.good_steps > steps_to_recover) {
+    clock.longest_step = 2 * clock.longest_step < asked ? 2 * clock.longest_step : 0;
+    clock.good_steps = 0;
+  }
+  return health;
+}
+
 /// Momentum crosses the gap in H^2/(pi^2 nu), far longer than a dwell: the steady flow of the new level is set at once.
 void Experiment::Parts::begin_hold(State& state) const {
   Search& search = state.search;
   search.bed_height = bed_surface(state.grains, scene.bed.length, scene.bed.grains.diameter).height;
   const ImposedFlow flow = imposed_flow(scene, search.hold, search.bed_height);
-  add_steady_flow(state, {.lid_speed = flow.lid_speed - search.lid_speed, .gradient = flow.gradient - search.gradient});
+  if (scene.developed)
+    add_steady_flow(state,
+                    {.lid_speed = flow.lid_speed - search.lid_speed, .gradient = flow.gradient - search.gradient});
   search.shields = flow.shields;
   search.lid_speed = flow.lid_speed;
   search.gradient = flow.gradient;
@@ -125,6 +188,7 @@ void Experiment::Parts::begin_hold(State& state) const {
   search.hold_start = state.clock.time;
   search.next_sample = search.hold_start + scene.record.every;
   search.half = search.sample = {};
+  search.health = {};
   search.blocks = search.block_events = search.block_events_squared = 0;
   std::fill(state.grains.travel.begin(), state.grains.travel.end(), 0.0);
 }

@@ -21,7 +21,9 @@ class Experiment {
   bool reopen(State&) const;
 
   /// One packing interval or one coupled step, with what surrounds it: impose the hold's flow when it begins, count
-  /// motion, sample, close the hold when its dwell has passed. Never called when finished.
+  /// motion, sample, close the hold when its dwell has passed. Never called when finished. A coupled step whose health is
+  /// past a limit is undone and taken again shorter; if it still is after the last retry (ailment(health) says why), the
+  /// state is left as it was before the step, and the run cannot go on.
   StepHealth step(State&);
 
   static bool finished(const State& s) { return s.search.phase == Search::finished; }

@@ -12,8 +12,11 @@
 namespace bedload {
 
 struct Clock {
-  std::uint64_t step = 0;   // fluid steps (while packing: intervals) done; never decreases, names the checkpoint files
-  double time = 0;          // [s] since the ramp began; while packing since pouring began
+  std::uint64_t step = 0;    // fluid steps (while packing: intervals) done; never decreases, names the checkpoint files
+  double time = 0;           // [s] since the ramp began; while packing since pouring began
+  double longest_step = 0;   // ceiling of the fluid step since one had to be retried [s]; 0 = none
+  std::uint64_t good_steps = 0;   // since the ceiling last changed
+  std::uint64_t retries = 0;      // steps undone and taken again shorter, in all
   bool operator==(const Clock&) const = default;
 };
 
@@ -45,6 +48,7 @@ struct Search {
   double next_sample = 0;            // [s]
   Window half;                       // the last half of the hold
   Window sample;                     // since the last sample
+  HoldHealth health;                 // of the steps of the hold
   double blocks = 0;                 // finished parts of the last half [-]
   double block_events = 0;           // events of the part under way [-]
   double block_events_squared = 0;   // sum over finished parts, for the standard error [-]
@@ -72,6 +76,9 @@ template <class Self, class Visit>
 void State::each_field(Self& s, Visit&& visit) {
   visit("clock/step", s.clock.step, "1");
   visit("clock/time", s.clock.time, "s");
+  visit("clock/longest_step", s.clock.longest_step, "s");
+  visit("clock/good_steps", s.clock.good_steps, "1");
+  visit("clock/retries", s.clock.retries, "1");
 
   visit("fluid/u", s.fluid.velocity.x, "m/s");
   visit("fluid/v", s.fluid.velocity.y, "m/s");
@@ -120,6 +127,9 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("search/sample/outer_impulse", s.search.sample.outer_impulse, "N s");
   visit("search/sample/bed_fluid_momentum", s.search.sample.bed_fluid_momentum, "kg m/s");
   visit("search/sample/momentum", s.search.sample.momentum, "kg m/s");
+  HoldHealth::each(s.search.health, [&](const char* name, auto& measure, const char* unit) {
+    visit((std::string("search/health/") + name).c_str(), measure, unit);
+  });
   visit("search/blocks", s.search.blocks, "1");
   visit("search/block_events", s.search.block_events, "1");
   visit("search/block_events_squared", s.search.block_events_squared, "1");
@@ -155,6 +165,11 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("record/holds/coordination", h.coordination, "1");
   visit("record/holds/momentum_residual", h.momentum_residual, "1");
 
+  visit("record/health/hold", s.record.health.hold, "1");
+  BedRecord::Health::Measures::each(s.record.health.measures, [&](const char* name, auto& column, const char* unit) {
+    visit((std::string("record/health/") + name).c_str(), column, unit);
+  });
+
   auto& b = s.record.profiles;
   visit("record/profiles/hold", b.hold, "1");
   visit("record/profiles/z", b.z, "m");
@@ -176,11 +191,12 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("record/tracks/wz", t.wz, "rad/s");
 
   // A new member of State changes one of these sizes: list it above, then here.
-  static_assert(sizeof(Clock) == 2 * 8 && sizeof(Window) == 7 * 8 && sizeof(Search) == 14 * 8 + 2 * sizeof(Window));
+  static_assert(sizeof(Clock) == 5 * 8 && sizeof(Window) == 7 * 8 && sizeof(HoldHealth) == 18 * 8 &&
+                sizeof(Search) == 14 * 8 + 2 * sizeof(Window) + sizeof(HoldHealth));
   static_assert(sizeof(FluidState) == 4 * sizeof(Field<Centre>) + 8);
   static_assert(sizeof(Grains) == 9 * sizeof(std::vector<Vec3>) &&
                 sizeof(ContactHistory) == 5 * sizeof(std::vector<Vec3>));
-  static_assert(sizeof(BedRecord) == (12 + 15 + 5 + 11) * sizeof(std::vector<double>));
+  static_assert(sizeof(BedRecord) == (12 + 15 + 19 + 5 + 11) * sizeof(std::vector<double>));
 }
 
 /// SHA-256 over each_field: name, unit, shape, little-endian bytes of the interior. Hexadecimal.

@@ -18,7 +18,7 @@
 #include "scheduler/heartbeat.hpp"
 #include "scheduler/request.hpp"
 #include "solver/experiment.hpp"
-#include "studies/ailment.hpp"
+#include "solver/step_judgement.hpp"
 #include "studies/case_file.hpp"
 #include "studies/performance.hpp"
 #include "studies/stop_signals.hpp"
@@ -146,10 +146,11 @@ void Worker::step() {
   const bool coupled = state_.search.phase == Search::holding;
   const auto health = experiment_.step(state_);
   if (const auto cause = ailment(health); !cause.empty()) {
-    throw Error(ErrorKind::numerical,
-                fmt::format("{}: step {} at {:.6g} s: {} (fluid step {:.3g} s, CFL {:.2g})", case_.label,
-                            state_.clock.step, state_.clock.time, cause, health.dt, health.cfl),
-                "the checkpoint before is kept; a shorter steps.dem or steps.fluid, or stiffer grains, may help");
+    throw Error(
+        ErrorKind::numerical,
+        fmt::format("{}: step {} at {:.6g} s: {} (fluid step {:.3g} s after {} retries, CFL {:.2g})", case_.label,
+                    state_.clock.step, state_.clock.time, cause, health.dt, health.retries, health.cfl),
+        "the checkpoint before is kept; a shorter steps.dem or steps.fluid, or stiffer grains, may help");
   }
   if (coupled) performance_.add(health, state_.grains.size(), case_.scene.grid.cell_count());
 }

@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 #include "solver/experiment.hpp"
-#include "studies/ailment.hpp"
+#include "solver/step_judgement.hpp"
 #include "studies/plan.hpp"
 #include "studies/validation.hpp"
 

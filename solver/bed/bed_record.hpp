@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/bed/hold_health.hpp"
+
 namespace bedload {
 
 /// Columns of equal length; one row per sample, per finished hold, per profile bin. SI, units as in each_field.
@@ -18,6 +20,12 @@ struct BedRecord {
         flux_standard_error, moving_fraction, bed_height, roughness, porosity, coordination, momentum_residual;
     bool operator==(const Holds&) const = default;
   } holds;
+  struct Health {   // one row per finished hold
+    using Measures = HealthMeasures<std::vector<double>>;
+    std::vector<double> hold;
+    Measures measures;
+    bool operator==(const Health&) const = default;
+  } health;
   struct Profiles {   // at the end of packing (hold -1) and of every hold, mean over x and y
     std::vector<double> hold, z, porosity, fluid_velocity, grain_velocity;
     bool operator==(const Profiles&) const = default;
