@@ -121,7 +121,7 @@ struct Coupler::Parts {
   FaceFields acceleration, laplace, impulse, flux, solid_flux;
   MixtureResponse response;
   Field<Centre> rhs, correction;
-  FaceFields kick;
+  FaceFields kick, carried;
   TransportScratch transport_scratch;
   FlowAtGrains flow;
   std::vector<Vec3> exchange, relaxation, ballistic, flow_velocity, push, moved, drag_force;
@@ -214,6 +214,7 @@ void Coupler::Parts::accelerate_faces(State& state) {
       a[n] = -a[n] + nu * lap[n] + g;
       f[n] += eps[n] * v[n];
     });
+  carried = u;
   }
   clear_walls(grid, acceleration);
   fill_face_ghosts(grid, flux);
@@ -385,8 +386,7 @@ void Coupler::Parts::deposit_at_new_positions(const State& state, double dt) {
 void Coupler::Parts::transport_momentum(State& state, double dt) {
   Stopwatch watch(times.transport);
   if (failed()) return;
-  fill_velocity_ghosts(grid, state.fluid.velocity, state.search.lid_speed);
-  transport(grid, flux, before.face, after.face, dt, state.fluid.velocity, transport_scratch);
+  transport(grid, flux, before.face, after.face, dt, carried, state.fluid.velocity, transport_scratch);
   std::swap(before, after);
   positions = state.grains.position;
 }

@@ -100,7 +100,8 @@ void prepare(const StaggeredGrid& g, TransportScratch& scratch) {
 }   // namespace
 
 void transport(const StaggeredGrid& g, const FaceFields& flux, const FaceFields& void_before,
-               const FaceFields& void_after, double dt, FaceFields& velocity, TransportScratch& scratch) {
+               const FaceFields& void_after, double dt, const FaceFields& carried, FaceFields& velocity,
+               TransportScratch& scratch) {
   prepare(g, scratch);
   find_divergence(g, flux, scratch.divergence);
   double *momentum = scratch.momentum.data(), *correction = scratch.correction.data();
@@ -111,7 +112,8 @@ void transport(const StaggeredGrid& g, const FaceFields& flux, const FaceFields&
     for_each_face_row(g, c, [&](std::size_t row, int length) {
       for (std::size_t n = row; n < row + length; ++n) momentum[n] = before[n] * u[n];
     });
-    for (int t = 0; t < 3; ++t) carry_along(g, c, t, flux.component(t), correction, u, dt, momentum, scratch.rows);
+    for (int t = 0; t < 3; ++t)
+      carry_along(g, c, t, flux.component(t), correction, carried.component(c), dt, momentum, scratch.rows);
     for_each_face_row(g, c, [&](std::size_t row, int length) {
       for (std::size_t n = row; n < row + length; ++n) u[n] = momentum[n] / after[n];
     });

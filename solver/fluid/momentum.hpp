@@ -11,13 +11,15 @@ struct TransportScratch {
   std::vector<double> rows, sums;
 };
 
-/// u_f = [eps_f u_f - dt sum F u_face/h]/eps'_f on every unknown face, with F the volume flux [m/s] whose divergence is
-/// -d(eps)/dt, averaged to the control volume of each face and corrected along the face's own direction so that a
-/// uniform flow stays uniform and momentum is conserved (docs/physics_fluid.md, F10 to F12); u_face by van
-/// Leer's TVD limiter. `flux` [m/s] has filled ghosts and is zero on walls; the void fractions are read on faces 0..n,
-/// without ghosts. `velocity` has both ghost layers filled on entry and none on return. First order in time, TVD for
-/// CFL <= 0.5.
+/// u_f = [eps_f u_f - dt sum F carried_side/h]/eps'_f on every unknown face, with F the volume flux [m/s] whose divergence
+/// is -d(eps)/dt, averaged to the control volume of each face and corrected along the face's own direction so that a
+/// uniform flow stays uniform and momentum is conserved (docs/physics_fluid.md, F10 to F12). `carried` [m/s] is the flow
+/// that F belongs to, that of the start of the step, taken at sides by van Leer's TVD limiter; `velocity` [m/s] has all that
+/// else changed it in the step, and may be the same. `flux` has filled ghosts and is zero on walls; the void fractions are
+/// read on faces 0..n, without ghosts. `carried` has both ghost layers filled; `velocity` has none on return. First order in
+/// time, TVD for CFL <= 0.5.
 void transport(const StaggeredGrid&, const FaceFields& flux, const FaceFields& void_before,
-               const FaceFields& void_after, double dt, FaceFields& velocity, TransportScratch&);
+               const FaceFields& void_after, double dt, const FaceFields& carried, FaceFields& velocity,
+               TransportScratch&);
 
 }   // namespace bedload
