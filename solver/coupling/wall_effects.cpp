@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace bedload {
 namespace {
@@ -51,7 +52,10 @@ double spin_torque_at_wall(double k) {
   return std::max(1 + 5.0 / 16 * k3, 0.3817 - 0.4 * std::log(gap_of(k, wall_roughness)));
 }
 
-double wall_share(double others) { return std::clamp(2 - others / 0.025, 0.0, 1.0); }
+double mean_response(bool along, double diameter, double normal, double tangential) {
+  const double k = along ? 0.0685 * std::pow(normal / tangential, -0.29) : 0.0730;
+  return 3 * std::numbers::pi * k * diameter / tangential;
+}
 
 double resolved_reflection(bool along, double distance, double diameter, double kappa, double normal,
                            double tangential) {

@@ -42,12 +42,14 @@ double shear_torque_at_wall(double k);
 /// -(2/5) ln gap + 0.3817 (Goldman, Cox & Brenner 1967); gaps as in drag_along_wall.
 double spin_torque_at_wall(double k);
 
-/// Share of a wall's effect for a grain at packing density phi of *other* grains: 1 to 0.025, 0 from 0.05.
-double wall_share(double others);
+/// kappa of a lone grain in creeping flow far from walls, mean over places in a cell: the velocity that its own drag gives to the
+/// fluid which it samples, per drag, in units of its Stokes mobility. Fitted for this kernel to the discrete equations, cells
+/// normal x tangential x tangential [m], drag along or across the flat sides; within 0.06 of its value (test).
+double mean_response(bool along, double diameter, double normal, double tangential);
 
 /// Velocity that the grid reflects back at a grain from a wall, per drag of a lone grain [-] (in units of its Stokes
-/// mobility): 9/16 k along, 9/8 k towards the wall while the wall is some cells away, never more than `kappa`, the velocity
-/// that the grain's own drag gives to the fluid which it samples (same units, far from walls, mean over places in a cell).
+/// mobility): 9/16 k along, 9/8 k towards the wall while the wall is some cells away, never more than `kappa`
+/// (mean_response).
 /// distance [m] counts as at least 0.75 cells along the wall: nearer, a kernel folded at the wall sees no change.
 /// normal, tangential: edges of the cells [m]. Within 0.05 kappa of the discrete equations' own from 0.75
 /// cells on (test).
@@ -64,7 +66,8 @@ struct WallDrag {
 /// drag_towards_wall along the normal). The flow sampled is u + (R - kappa) f, R the resolved reflection, so that
 ///   f = (F_s u_sampled - F_t v)/(1 + F_s (R - kappa)).
 /// reflected: R. removed: the part of kappa for which beta is corrected already, by 1/(1 - removed); 0 without such a
-/// correction. Both per axis and times the drag law's multiplier. share: wall_share.
+/// correction. Both per axis and times the drag law's multiplier. share: loneness of the grain, by which all
+/// this is blended in.
 WallDrag wall_drag(const NearWall&, double diameter, Vec3 removed, Vec3 reflected, double share);
 
 }   // namespace bedload
