@@ -4,6 +4,7 @@
 #include <chrono>
 #include <limits>
 
+#include "solver/coupling/added_mass.hpp"
 #include "solver/coupling/hydrodynamic_forces.hpp"
 #include "solver/coupling/implicit_drag.hpp"
 #include "solver/coupling/mixture_response.hpp"
@@ -103,7 +104,9 @@ struct Coupler::Parts {
         response(grid),
         rhs(grid),
         correction(grid),
-        kick(grid) {}
+        kick(grid) {
+    if (scene.terms.added_mass || explicit_forces()) added_exchange = reaction = FaceFields(grid);
+  }
 
   const Scene scene;
   const StaggeredGrid grid;
@@ -125,6 +128,10 @@ struct Coupler::Parts {
   TransportScratch transport_scratch;
   FlowAtGrains flow;
   std::vector<Vec3> exchange, relaxation, ballistic, flow_velocity, push, moved, drag_force;
+  // Only where the terms need them: C_A V_p [m3] and rho_f C_A V_p [kg] of every grain, what the fluid gets of them.
+  std::vector<double> added_volume, added_mass;
+  std::vector<Vec3> contact_before;
+  FaceFields added_exchange, reaction;
 
   StepBooks books;
   StepTimes times;
@@ -132,6 +139,7 @@ struct Coupler::Parts {
 
   bool failed() const { return !health.finite || health.lost_grain; }
   bool model_b() const { return scene.terms.model_b(); }
+  bool explicit_forces() const { return scene.terms.shear_lift || scene.terms.magnus || scene.terms.wall_forces; }
   double specific_mass(const Grains& g, std::size_t p) const {
     return sphere_volume(g.diameter[p]) * g.density[p] / scene.bed.fluid.density;
   }
@@ -145,7 +153,12 @@ struct Coupler::Parts {
   double courant_rate(const FaceFields& velocity) const;
   void limit_by_grains(const State&, double& step);
   void shorten(double& step, double limit, StepLimit by);
+  void predict_grains(const State&, double dt);
+  void find_impulse(const State&, double dt);
+  void react_on_fluid(const State&, double dt);
   void solve_drag(State&, double dt);
+  void book_exchange(const State&, double dt);
+  void give_contact_share(State&, double dt);
   void move_grains(State&, double dt);
   void deposit_at_new_positions(const State&, double dt);
   void transport_momentum(State&, double dt);
@@ -294,51 +307,114 @@ Vec3 Coupler::Parts::weight(double density) const {
   return scene.terms.buoyancy ? (1 - scene.bed.fluid.density / density) * scene.bed.gravity : scene.bed.gravity;
 }
 
-/// Ballistic velocities, then the one implicit drag solve of the step; leaves the grains' constant push.
-void Coupler::Parts::solve_drag(State& state, double dt) {
-  Stopwatch watch(times.drag);
+/// Ballistic velocities, and what drag and added mass exchange over the step: added mass resists increments of velocity as
+/// drag resists velocity, so that E = beta T + m_a stands where beta T stood.
+void Coupler::Parts::predict_grains(const State& state, double dt) {
   const Grains& grains = state.grains;
-  const double rho = scene.bed.fluid.density, nu = scene.bed.fluid.viscosity;
+  const double rho = scene.bed.fluid.density;
   const std::size_t count = grains.size();
   exchange.resize(count), relaxation.resize(count), ballistic.resize(count), flow_velocity.resize(count),
       push.resize(count), drag_force.resize(count);
+  if (scene.terms.added_mass) find_added_mass(grid, grains, stencils, flow.void_fraction, model_b(), added_volume);
   for (std::size_t p = 0; p < count; ++p) {
-    exchange[p] = flow.drag[p] * dt / grid.cell_volume();
+    Vec3 impulse_per_slip = flow.drag[p] * dt;
+    if (scene.terms.added_mass) impulse_per_slip += added_volume[p] * Vec3{1, 1, 1};
+    exchange[p] = impulse_per_slip / grid.cell_volume();
     relaxation[p] = ballistic[p] = push[p] = {};
     if (grains.fixed[p]) continue;
     const double mass = specific_mass(grains, p);
-    relaxation[p] = flow.drag[p] * dt / mass;
+    relaxation[p] = impulse_per_slip / mass;
     push[p] = weight(grains.density[p]);
     push[p].x += state.search.push * norm(push[p]);
     if (!model_b()) push[p] += rho / grains.density[p] * flow.acceleration[p];
+    if (explicit_forces()) push[p] += flow.force[p] / mass;
     ballistic[p] = grains.velocity[p] + dt * (push[p] + grains.mean_contact_force[p] / (rho * mass));
+    if (scene.terms.added_mass) ballistic[p] -= added_volume[p] / mass * (flow.velocity[p] - grains.velocity[p]);
   }
+}
+
+/// What changes the fluid besides drag: T eps a, and the reaction of explicit forces and of added mass.
+void Coupler::Parts::find_impulse(const State& state, double dt) {
   for (int c = 0; c < 3; ++c) {
     double* b = impulse.component(c);
     const double *a = acceleration.component(c), *eps = before.face.component(c);
     for_each_unknown_face(grid, c, [&](std::size_t n) { b[n] = dt * a[n] * (model_b() ? 1 : eps[n]); });
   }
+  if (scene.terms.added_mass || explicit_forces()) react_on_fluid(state, dt);
+}
+
+/// - sum w T f/V_c of explicit forces; A u^n - sum w (m_a/V_c) v, which leaves to the drag solve the increments of u and v
+/// that added mass answers to. A = sum w m_a/V_c is lumped as the drag is: at rest relative to each other, fluid and
+/// grains must not smooth the flow.
+void Coupler::Parts::react_on_fluid(const State& state, double dt) {
+  const Strides stride(grid);
+  const double per_cell = 1 / grid.cell_volume();
+  clear(reaction), clear(added_exchange);
+  for (std::size_t p = 0; p < state.grains.size(); ++p) {
+    Vec3 given;
+    if (explicit_forces()) given += dt * flow.force[p];
+    if (scene.terms.added_mass) {
+      const double share = added_volume[p] * per_cell;
+      deposit(stencils[p], stride, {share, share, share}, added_exchange);
+      if (!state.grains.fixed[p]) given += added_volume[p] * state.grains.velocity[p];
+    }
+    deposit(stencils[p], stride, -per_cell * given, reaction);
+  }
+  fold_deposits(grid, reaction), fold_deposits(grid, added_exchange);
+  for (int c = 0; c < 3; ++c) {
+    double* b = impulse.component(c);
+    const double *r = reaction.component(c), *added = added_exchange.component(c),
+                 *u = state.fluid.velocity.component(c);
+    for_each_unknown_face(grid, c, [&](std::size_t n) { b[n] += r[n] + added[n] * u[n]; });
+  }
+}
+
+/// The one implicit solve of the step for all that fluid and grains exchange; leaves the grains' constant push.
+void Coupler::Parts::solve_drag(State& state, double dt) {
+  Stopwatch watch(times.drag);
+  const double rho = scene.bed.fluid.density, nu = scene.bed.fluid.viscosity;
+  predict_grains(state, dt);
+  find_impulse(state, dt);
   const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
   const bool implicit = nu * dt > explicit_viscosity_limit * shortest_edge * shortest_edge;
   health.drag_iterations =
       drag.solve(grid, {stencils, exchange, relaxation, ballistic, flow.velocity, implicit ? nu * dt : 0}, before.face,
                  impulse, state.fluid.velocity, flow_velocity);
   health.converged = health.drag_iterations < ImplicitDrag::most_iterations;
-  Vec3 on_grains;
-  for (std::size_t p = 0; p < count; ++p) {
-    const Vec3 a = relaxation[p], slip = flow_velocity[p] - ballistic[p];
-    const Vec3 force =
-        scaled(flow.drag[p], {slip.x / (1 + a.x), slip.y / (1 + a.y), slip.z / (1 + a.z)});   // per rho_f
-    drag_force[p] = rho * force;
-    on_grains += force;
-    if (!model_b()) on_grains += sphere_volume(grains.diameter[p]) * flow.acceleration[p];
-    if (!grains.fixed[p]) push[p] += force / specific_mass(grains, p);
-  }
-  books.on_grains = rho * on_grains;
+  book_exchange(state, dt);
   if (implicit) {
     const WallShear more = wall_shear(grid, drag.change(), nu);
     books.on_bottom += rho * more.bottom, books.on_lid += rho * more.top;
   }
+}
+
+/// The forces that the solve has found, into the grains' push and the books.
+void Coupler::Parts::book_exchange(const State& state, double dt) {
+  const Grains& grains = state.grains;
+  const double rho = scene.bed.fluid.density;
+  added_mass.resize(added_volume.size());
+  Vec3 on_grains;
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const Vec3 a = relaxation[p], difference = flow_velocity[p] - ballistic[p];
+    const Vec3 slip{difference.x / (1 + a.x), difference.y / (1 + a.y), difference.z / (1 + a.z)};   // u* - v'
+    Vec3 force = scaled(flow.drag[p], slip);                                                         // per rho_f
+    drag_force[p] = rho * force;
+    const double mass = specific_mass(grains, p);
+    if (scene.terms.added_mass) {
+      const Vec3 velocity = grains.fixed[p] ? Vec3{} : grains.velocity[p];
+      force += added_volume[p] / dt * (slip - (flow.velocity[p] - velocity));
+      added_mass[p] = rho * added_volume[p];
+    }
+    on_grains += force;
+    if (!model_b()) on_grains += sphere_volume(grains.diameter[p]) * flow.acceleration[p];
+    if (explicit_forces()) on_grains += flow.force[p];
+    if (grains.fixed[p]) continue;
+    push[p] += force / mass;
+    // In the sub-steps a contact force meets mass and added mass. The solve has already met the mean of the last step's.
+    if (scene.terms.added_mass)
+      push[p] += (1 / mass - 1 / (mass + added_volume[p])) / rho * grains.mean_contact_force[p];
+  }
+  books.on_grains = rho * on_grains;
 }
 
 /// Sub-steps of {contacts, motion} under the constant push; drag does not change within them.
@@ -347,8 +423,9 @@ void Coupler::Parts::move_grains(State& state, double dt) {
   Grains& grains = state.grains;
   moved.assign(grains.size(), {});
   if (health.substeps == 0) return;
-  const GrainHealth contact = dynamics.advance(grains, state.contacts, {.push = push}, dt / health.substeps,
-                                               health.substeps, state.search.lid_speed);
+  if (scene.terms.added_mass) contact_before = grains.mean_contact_force;
+  const GrainHealth contact = dynamics.advance(grains, state.contacts, {.push = push, .added_mass = added_mass},
+                                               dt / health.substeps, health.substeps, state.search.lid_speed);
   health.deepest_overlap = contact.deepest_overlap;
   books.contact_on_walls = contact.force_on_walls;
   const Vec3 length = scene.bed.length;
@@ -363,6 +440,28 @@ void Coupler::Parts::move_grains(State& state, double dt) {
     }
   }
   health.lost_grain |= health.grain_travel >= 1;   // more than the charge-conserving deposit can carry
+  if (scene.terms.added_mass && !failed()) give_contact_share(state, dt);
+}
+
+/// Contact forces that the solve did not know of have moved a grain together with its liquid: the liquid's share of the
+/// impulse, m_a/(M + m_a), is the fluid's.
+void Coupler::Parts::give_contact_share(State& state, double dt) {
+  const Grains& grains = state.grains;
+  const Strides stride(grid);
+  const double rho = scene.bed.fluid.density;
+  clear(reaction);
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    if (grains.fixed[p]) continue;
+    const double share = added_volume[p] / (specific_mass(grains, p) + added_volume[p]);
+    const Vec3 on_liquid = share * (grains.mean_contact_force[p] - contact_before[p]);
+    deposit(stencils[p], stride, dt / (rho * grid.cell_volume()) * on_liquid, reaction);
+    books.on_grains -= on_liquid;
+  }
+  fold_deposits(grid, reaction);
+  for (int c = 0; c < 3; ++c)
+    for_each_unknown_face(grid, c,
+                          [r = reaction.component(c), eps = before.face.component(c),
+                           u = state.fluid.velocity.component(c)](std::size_t n) { u[n] += r[n] / eps[n]; });
 }
 
 /// The flux that transport needs, then everything that belongs to x^{n+1}.

@@ -18,16 +18,26 @@ double sum_of_sizes(const State& state) {
 
 const Terms model_b{true, true, false, false};
 
+Terms with_added_mass(Terms terms = {}) {
+  terms.added_mass = true;
+  return terms;
+}
+
 struct MomentumCase {
   double density_ratio;
   Terms terms{};
   friend void PrintTo(const MomentumCase& c, std::ostream* out) {
-    *out << "density ratio " << c.density_ratio << ", Model " << (c.terms.model_b() ? "B" : "A");
+    *out << "density ratio " << c.density_ratio << ", Model " << (c.terms.model_b() ? "B" : "A")
+         << (c.terms.added_mass ? ", added mass" : "");
   }
 };
 class PeriodicSuspension : public testing::TestWithParam<MomentumCase> {};
 INSTANTIATE_TEST_SUITE_P(Momentum, PeriodicSuspension,
-                         testing::Values(MomentumCase{1.05}, MomentumCase{2.65}, MomentumCase{2.65, model_b}));
+                         testing::Values(MomentumCase{1.05}, MomentumCase{2.65}, MomentumCase{2.65, model_b},
+                                         MomentumCase{1.01, with_added_mass()}, MomentumCase{1.05, with_added_mass()},
+                                         MomentumCase{2.65, with_added_mass()},
+                                         MomentumCase{1.01, with_added_mass(model_b)},
+                                         MomentumCase{2.65, with_added_mass(model_b)}));
 
 TEST_P(PeriodicSuspension, KeepsItWhileGrainsMoveAndCollide) {
   const double d = 1e-3;
@@ -55,13 +65,16 @@ struct BooksCase {
   Terms terms{};
   double viscosity = 1e-6;
   friend void PrintTo(const BooksCase& c, std::ostream* out) {
-    *out << "viscosity " << c.viscosity << ", Model " << (c.terms.model_b() ? "B" : "A");
+    *out << "viscosity " << c.viscosity << ", Model " << (c.terms.model_b() ? "B" : "A")
+         << (c.terms.added_mass ? ", added mass" : "");
   }
 };
 class ShearedMixture : public testing::TestWithParam<BooksCase> {};
 INSTANTIATE_TEST_SUITE_P(Momentum, ShearedMixture,
                          testing::Values(BooksCase{}, BooksCase{model_b}, BooksCase{{}, 1e-2},
-                                         BooksCase{model_b, 1e-2}));   // 1e-2: implicit
+                                         BooksCase{model_b, 1e-2},   // 1e-2: implicit
+                                         BooksCase{with_added_mass()}, BooksCase{with_added_mass(model_b)},
+                                         BooksCase{with_added_mass(), 1e-2}));
 
 TEST_P(ShearedMixture, IsBookedCompletelyAlongTheFlow) {
   // A tilted channel with a lid and a gradient; fixed and free grains of two sizes and densities. What the fluid gains is
