@@ -100,7 +100,7 @@ void check_models(const Scene& scene, Found& found) {
          "all four terms (Model A), or [\"drag\", \"buoyancy\"] (Model B)"});
   }
   for (const auto id : scene.record.tracks) {
-    if (!packed(scene.bed) || id < scene.bed.source.count) continue;
+    if (scene.bed.source.kind == BedSource::Kind::file || id < scene.bed.source.count) continue;
     found.push_back({"record.tracks",
                      fmt::format("there is no grain {}: ids run from 0 to {}", id, scene.bed.source.count - 1),
                      "leave it out"});

@@ -53,6 +53,8 @@ class Resolver : InputList {
   void bed();
   void bed_table();
   void count_from_depth();
+  void suspension();
+  double mean_grain_volume() const;
   void drive();
   void staircase(std::string_view table);
   void start();
@@ -129,12 +131,16 @@ void Resolver::box() {
 void Resolver::bed() {
   take("bed.source");
   const auto& source = word("bed.source");
-  const bool packed = source == "poured" || source == "lattice";
-  if (!packed) {
-    for (const auto key : {"bed.count", "bed.depth", "bed.seed"})
-      refuse(key, fmt::format("nothing is packed with bed.source = \"{}\"", source));
-  }
+  const bool packed = source == "poured" || source == "lattice", suspended = source == "suspension";
+  if (!packed) refuse("bed.depth", fmt::format("nothing settles with bed.source = \"{}\"", source));
+  if (!packed && !suspended)
+    for (const auto key : {"bed.count", "bed.seed"})
+      refuse(key, fmt::format("nothing is placed with bed.source = \"{}\"", source));
+  if (!suspended)
+    for (const auto key : {"bed.solid_fraction", "bed.motion"})
+      refuse(key, fmt::format("only a suspension has one, and bed.source is \"{}\"", source));
   if (source != "file") refuse("bed.file", fmt::format("no file is read with bed.source = \"{}\"", source));
+  if (suspended) suspension();
   if (packed) {
     take("bed.seed");
     if (given("bed.count") && given("bed.depth"))
@@ -146,14 +152,34 @@ void Resolver::bed() {
   if (source == "file") bed_table();
 }
 
+void Resolver::suspension() {
+  take("bed.seed");
+  take_unless_default("bed.motion");
+  if (given("bed.count") == given("bed.solid_fraction"))
+    return problem("bed.source", "a suspension wants one of count and solid_fraction",
+                   "for example: solid_fraction = 0.2");
+  if (given("bed.count")) return take("bed.count");
+  take("bed.solid_fraction");
+  if (!inputs.has("bed.solid_fraction") || !inputs.has("grains.spread") || !complete()) return;
+  const double box = number("box.length") * number("box.width") * number("box.height");
+  const double count = std::round(number("bed.solid_fraction") * box / mean_grain_volume());
+  inputs.values.erase("bed.solid_fraction");
+  if (count < 1) return problem("bed.solid_fraction", "not one grain is so little");
+  inputs.values["bed.count"] = count;
+}
+
+/// Of a normal distribution of diameters: the mean of d^3 is that of the mean diameter times 1 + 3 spread^2.
+double Resolver::mean_grain_volume() const {
+  const double spread = number("grains.spread");
+  return sphere_volume(number("grains.diameter")) * (1 + 3 * spread * spread);
+}
+
 /// Grains that fill the box to a depth, at the solid fraction of a loose packing.
 void Resolver::count_from_depth() {
   take("bed.depth");
   if (!inputs.has("bed.depth") || !inputs.has("grains.spread") || !complete()) return;
-  const double spread = number("grains.spread");
-  const double volume = sphere_volume(number("grains.diameter")) * (1 + 3 * spread * spread);   // mean of d^3
-  const double count =
-      std::round(number("bed.depth") * number("box.length") * number("box.width") * loose_packing / volume);
+  const double count = std::round(number("bed.depth") * number("box.length") * number("box.width") * loose_packing /
+                                  mean_grain_volume());
   inputs.values.erase("bed.depth");
   if (count < 1) return problem("bed.depth", "not one grain fits into so thin a bed");
   inputs.values["bed.count"] = count;

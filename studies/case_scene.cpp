@@ -28,13 +28,15 @@ std::uint64_t rows_of(const std::string& csv) {
 BedSource source_of(const CaseInputs& inputs) {
   using Kind = BedSource::Kind;
   const auto& source = inputs.word("bed.source");
-  const Kind kind = source == "poured"    ? Kind::poured
-                    : source == "lattice" ? Kind::lattice
-                    : source == "file"    ? Kind::file
-                                          : Kind::none;
+  const Kind kind = source == "poured"       ? Kind::poured
+                    : source == "lattice"    ? Kind::lattice
+                    : source == "suspension" ? Kind::suspension
+                    : source == "file"       ? Kind::file
+                                             : Kind::none;
   BedSource made{.kind = kind, .csv = inputs.csv};
   made.count =
       kind == Kind::file ? rows_of(inputs.csv) : static_cast<std::uint64_t>(number_or_zero(inputs, "bed.count"));
+  made.fixed = inputs.has("bed.motion");
   if (inputs.has("bed.seed")) made.seed = static_cast<std::uint64_t>(inputs.number("bed.seed"));
   return made;
 }

@@ -65,9 +65,11 @@ constexpr StudyKey keys[] = {
     number("grains.rolling_friction", Range::not_negative, "mur", "0.0"),
     amount("grains.stiffness", dimension::pressure, "E", "auto", "auto"),
 
-    word("bed.source", "bed", "poured|lattice|file|none", "poured"),
+    word("bed.source", "bed", "poured|lattice|suspension|file|none", "poured"),
     count("bed.count", "n"),
     amount("bed.depth", dimension::length, "depth"),
+    number("bed.solid_fraction", Range::positive, "phi"),
+    word("bed.motion", "motion", "free|fixed", "free"),
     text("bed.file", "file"),
     count("bed.seed", "s", "1"),
 

@@ -28,11 +28,12 @@ struct GrainProperties {
 
 /// Where the grains come from.
 struct BedSource {
-  enum class Kind { poured, lattice, file, none };
+  enum class Kind { poured, lattice, suspension, file, none };
   Kind kind = Kind::none;
   std::uint64_t count = 0;   // grains; with kind file: rows
   std::string csv;           // kind file: the bytes of the table x,y,z,diameter,density,fixed
   std::uint64_t seed = 1;    // packing
+  bool fixed = false;        // kind suspension: the grains never move
 };
 
 /// The part that packing a bed may see.

@@ -11,6 +11,7 @@
 #include "solver/grains/box_walls.hpp"
 #include "solver/grains/grain_table.hpp"
 #include "solver/grains/neighbour_search.hpp"
+#include "solver/grains/suspension.hpp"
 
 namespace bedload {
 namespace {
@@ -103,12 +104,24 @@ Grains grains_in_layers(const BedScene& scene) {
   return grains;
 }
 
+Grains grains_in_suspension(const BedScene& scene) {
+  Grains grains;
+  grains.resize(scene.source.count);
+  for (std::uint32_t i = 0; i < grains.size(); ++i) grains.diameter[i] = draw_diameter(scene, i);
+  std::ranges::fill(grains.density, scene.grains.density);
+  std::ranges::fill(grains.fixed, std::uint8_t{scene.source.fixed});
+  if (grains.size() > 0) check_periodic_sides(PeriodicBox(scene), std::ranges::max(grains.diameter));
+  grains.position = places_in_suspension(scene, grains.diameter);
+  return grains;
+}
+
 }   // namespace
 
 Grains place_grains(const BedScene& scene) {
   switch (scene.source.kind) {
     case BedSource::Kind::none: return {};
     case BedSource::Kind::file: return read_grain_table(scene);
+    case BedSource::Kind::suspension: return grains_in_suspension(scene);
     case BedSource::Kind::poured:
     case BedSource::Kind::lattice: break;
   }

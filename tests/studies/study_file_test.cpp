@@ -31,7 +31,7 @@ TEST(StudyFile, SuggestsTheNearestKey) {
 
 TEST(StudyFile, SuggestsTheNearestWord) {
   EXPECT_TRUE(says(complaint(with(good_study, "\"lid\"", "\"lidd\"")),
-                   "did you mean \"lid\"? It is one of lid, pressure, none"));
+                   "did you mean \"lid\"? It is one of lid, pressure, push, through_flow, none"));
 }
 
 TEST(StudyFile, ReportsAllProblemsAtOnceInOrderOfPlace) {
