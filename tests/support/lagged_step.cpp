@@ -35,6 +35,7 @@ void LaggedStep::step(State& state, double dt, int substeps) {
   fill_face_ghosts(grid_, before_.face);
 
   fill_velocity_ghosts(grid_, u, 0);
+  const FaceFields carried = u;
   fill_centre_ghosts(grid_, state.fluid.pressure);
   gradient(grid_, state.fluid.pressure, acceleration_);
   laplacian(grid_, u, laplace_);
@@ -82,8 +83,7 @@ void LaggedStep::step(State& state, double dt, int substeps) {
   find_stencils(grid_, grains, stencils_);
   deposit_void_fraction(grid_, grains, stencils_, after_);
   fill_face_ghosts(grid_, after_.face);
-  fill_velocity_ghosts(grid_, u, 0);
-  transport(grid_, flux_, before_.face, after_.face, dt, u, transport_scratch_);
+  transport(grid_, flux_, before_.face, after_.face, dt, carried, u, transport_scratch_);
 
   deposit_solid_flux(grid_, grains, stencils_, solid_flux_);
   Grains held = grains;   // the pressure equation of a fluid between grains that do not give way
