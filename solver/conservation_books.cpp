@@ -1,0 +1,195 @@
+// Volume, momentum and energy of fluid and grains, before and after each step.
+#include "solver/conservation_books.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/coupling/void_fraction.hpp"
+#include "solver/fluid/face_loops.hpp"
+
+namespace bedload {
+namespace {
+
+double mass_of(const Grains& g, std::size_t p) { return g.density[p] * sphere_volume(g.diameter[p]); }
+
+/// Energy of the springs of contacts: 2/5 F delta of Hertz's, S_t xi^2/2 of the tangential ones (docs/physics_grains.md).
+class ContactEnergy {
+ public:
+  explicit ContactEnergy(const BedScene& bed) : bed_(bed) {}
+
+  double operator()(const State& state) const {
+    double sum = 0;
+    for (std::size_t n = 0; n < state.contacts.size(); ++n) sum += of_contact(state, n);
+    return sum;
+  }
+
+ private:
+  double of_contact(const State& state, std::size_t n) const {
+    const Grains& g = state.grains;
+    const std::size_t i = state.contacts.lower[n], j = state.contacts.higher[n];
+    const double r = g.diameter[i] / 2;
+    double depth, radius;   // overlap; R*
+    if (j < g.size()) {
+      Vec3 apart = g.position[j] - g.position[i];
+      for (int c = 0; c < 3; ++c)
+        if (bed_.sides[c] == Side::periodic) apart[c] -= bed_.length[c] * std::round(apart[c] / bed_.length[c]);
+      const double other = g.diameter[j] / 2;
+      depth = r + other - norm(apart), radius = r * other / (r + other);
+    } else {
+      const int c = static_cast<int>(j - static_cast<std::size_t>(Wall::x_low)) / 2;
+      const bool high = (j - static_cast<std::size_t>(Wall::x_low)) % 2 == 1;
+      depth = r - (high ? bed_.length[c] - g.position[i][c] : g.position[i][c]), radius = r;
+    }
+    if (!(depth > 0)) return 0;
+    const double poisson = bed_.grains.poisson;
+    const double stiffness =
+        bed_.grains.young_modulus / (1 - poisson * poisson) * std::sqrt(radius * depth);   // S_n, (G2)
+    const double shear = 2 * (1 - poisson) / (2 - poisson) * stiffness;
+    return 2.0 / 5 * (2.0 / 3 * stiffness * depth) * depth + shear * norm2(state.contacts.spring[n]) / 2;
+  }
+
+  BedScene bed_;
+};
+
+/// The sums of one state.
+struct Sums {
+  Vec3 momentum;          // of fluid and grains [kg m/s]
+  double magnitude = 0;   // the same without signs
+  Vec3 driven;            // volume that moves, times its velocity: what a driving gradient works on [m4/s]
+  double energy = 0;      // kinetic, and of springs [J]
+};
+
+}   // namespace
+
+struct ConservationBooks::Parts {
+  explicit Parts(const Scene& given) : scene(given), grid(given.grid), springs(given.bed), eps(grid), flux(grid) {}
+
+  Sums sums_of(const State&);
+  void check_grains(const State&);
+  void book_momentum(const Sums& before, const Sums& after, const State&, double dt, const StepBooks&);
+  void book_energy(const Sums& before, const Sums& after, const State& from, const State& to, double dt,
+                   const StepBooks&);
+  Vec3 weight(double of_grain) const {
+    return (of_grain - (scene.terms.buoyancy ? scene.bed.fluid.density : 0)) * scene.bed.gravity;
+  }
+
+  const Scene scene;
+  const StaggeredGrid grid;
+  const ContactEnergy springs;
+  std::vector<Stencil> stencils;
+  VoidFraction eps;
+  FaceFields flux;
+
+  Books worst;
+  std::vector<double> diameter, density;   // of the first state
+  double dissipated = 0, most_dissipated = 0, exchanged = 0;
+};
+
+ConservationBooks::ConservationBooks(const Scene& scene) : parts_(std::make_unique<Parts>(scene)) {}
+ConservationBooks::~ConservationBooks() = default;
+const Books& ConservationBooks::worst() const { return parts_->worst; }
+
+void ConservationBooks::add(const State& before, const State& after, const StepHealth& health, const StepBooks& books) {
+  Parts& parts = *parts_;
+  Books& worst = parts.worst;
+  worst.divergence = std::max(worst.divergence, before.search.hold_begun ? health.divergence_left : 0);
+  worst.mobile |= health.substeps > 0;
+  parts.check_grains(after);
+  const Sums from = parts.sums_of(before), to = parts.sums_of(after);
+  if (!before.search.hold_begun) return;
+  parts.book_momentum(from, to, before, health.dt, books);
+  parts.book_energy(from, to, before, after, health.dt, books);
+}
+
+void ConservationBooks::Parts::check_grains(const State& state) {
+  const Grains& grains = state.grains;
+  if (diameter.empty()) diameter = grains.diameter, density = grains.density;
+  worst.grains_unchanged &= diameter == grains.diameter && density == grains.density;
+  for (const Vec3& x : grains.position)
+    for (int c = 0; c < 3; ++c) worst.grains_unchanged &= x[c] >= 0 && x[c] <= scene.bed.length[c];
+}
+
+Sums ConservationBooks::Parts::sums_of(const State& state) {
+  const Grains& grains = state.grains;
+  const double rho = scene.bed.fluid.density, cell = grid.cell_volume();
+  find_stencils(grid, grains, stencils);
+  deposit_void_fraction(grid, grains, stencils, eps);
+  deposit_solid_flux(grid, grains, stencils, flux);
+
+  const Vec3 length = grid.length();
+  const double box = length.x * length.y * length.z;
+  double fluid = cell * sum_over_cells(grid, [&](std::size_t n) { return eps.centre[n]; }), solid = 0;
+  for (const double d : grains.diameter) solid += sphere_volume(d);
+  worst.fluid_volume = std::max(worst.fluid_volume, std::abs(fluid - (box - solid)) / box);
+
+  Sums sums;
+  for (int c = 0; c < 3; ++c) {
+    const double *e = eps.face.component(c), *u = state.fluid.velocity.component(c), *j = flux.component(c);
+    const auto over = [&](auto&& value) { return cell * sum_over_faces(grid, c, value); };
+    sums.momentum[c] = rho * over([=](std::size_t n) { return e[n] * u[n]; });
+    sums.magnitude += rho * over([=](std::size_t n) { return e[n] * std::abs(u[n]); });
+    sums.energy += rho / 2 * over([=](std::size_t n) { return e[n] * u[n] * u[n]; });
+    sums.driven[c] = scene.terms.model_b() ? over([=](std::size_t n) { return u[n]; })
+                                           : over([=](std::size_t n) { return e[n] * u[n] + j[n]; });
+  }
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const double mass = mass_of(grains, p);
+    sums.momentum += mass * grains.velocity[p];
+    sums.magnitude += mass * norm(grains.velocity[p]);
+    sums.energy +=
+        mass / 2 * norm2(grains.velocity[p]) + sphere_inertia(mass, grains.diameter[p]) / 2 * norm2(grains.spin[p]);
+  }
+  sums.energy += springs(state);
+  return sums;
+}
+
+/// d(momentum) = (drive + weight along the slope + push - what bottom, lid and walls take up) dt.
+void ConservationBooks::Parts::book_momentum(const Sums& before, const Sums& after, const State& state, double dt,
+                                             const StepBooks& books) {
+  const Grains& grains = state.grains;
+  const bool seen = grid.periodic(0) && grid.periodic(1) && std::ranges::find(grains.fixed, 1) == grains.fixed.end();
+  if (!seen) return;
+  Vec3 force = books.driving - books.on_bottom - books.on_lid - books.contact_on_walls;
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const Vec3 w = weight(grains.density[p]);
+    force += sphere_volume(grains.diameter[p]) * w;
+    force.x += sphere_volume(grains.diameter[p]) * state.search.push * norm(w);
+  }
+  const Vec3 made = after.momentum - before.momentum - dt * force;
+  const double scale = after.magnitude + before.magnitude + dt * norm(force);
+  if (scale > 0)
+    worst.momentum = std::max(worst.momentum.value_or(0), std::max(std::abs(made.x), std::abs(made.y)) / scale);
+}
+
+/// Work of drive, lid, weight and push, less what the energy grew by, is dissipated; that sum may not fall.
+void ConservationBooks::Parts::book_energy(const Sums& before, const Sums& after, const State& from, const State& to,
+                                           double dt, const StepBooks& books) {
+  const Grains& grains = from.grains;
+  const auto on_lid = static_cast<std::uint32_t>(Wall::z_high);
+  if (from.search.lid_speed != 0 && std::ranges::find(to.contacts.higher, on_lid) != to.contacts.higher.end()) {
+    worst.energy.reset();   // the lid's work on grains is not booked
+    exchanged = std::numeric_limits<double>::infinity();
+  }
+  if (std::isinf(exchanged)) return;
+  double by_weight = 0, at_rest = 0;
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const Vec3 w = sphere_volume(grains.diameter[p]) * weight(grains.density[p]);
+    Vec3 moved = to.grains.position[p] - from.grains.position[p];
+    for (int c = 0; c < 3; ++c)
+      if (grid.periodic(c)) moved[c] -= scene.bed.length[c] * std::round(moved[c] / scene.bed.length[c]);
+    by_weight += dot(w, moved) + from.search.push * norm(w) * moved.x;
+    at_rest += 1e-6 * norm(w) * grains.diameter[p];   // a bed with less counts as settled
+  }
+  const Vec3 length = grid.length(), gradient = 1 / (length.x * length.y * length.z) * books.driving;
+  const double by_drive = dt / 2 * dot(gradient, before.driven + after.driven);
+  const double by_lid = -dt * books.on_lid.x * from.search.lid_speed;
+
+  if (exchanged == 0) exchanged = before.energy + at_rest;
+  exchanged += std::abs(by_drive) + std::abs(by_lid) + std::abs(by_weight);
+  dissipated += by_drive + by_lid + by_weight - (after.energy - before.energy);
+  most_dissipated = std::max(most_dissipated, dissipated);
+  if (exchanged > 0) worst.energy = std::max(worst.energy.value_or(0), (most_dissipated - dissipated) / exchanged);
+}
+
+}   // namespace bedload
