@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "solver/coupling/drag_laws.hpp"
+#include "solver/coupling/packing_of_others.hpp"
+#include "solver/coupling/self_disturbance.hpp"
 #include "solver/coupling/void_fraction.hpp"
 
 namespace bedload {
@@ -17,12 +20,18 @@ struct FlowAtGrains {
   std::vector<double> void_fraction;   // eps at the grain [-]
   std::vector<Vec3>
       drag;   // beta/rho_f per axis: drag force per slip and fluid density [m3/s]; divided by eps in Model B
-  std::vector<Vec3> force;         // explicit forces on the grain besides drag (lift, ...), per fluid density [m4/s2]
+  std::vector<Vec3> force;   // explicit forces on the grain besides drag (lift, ...), per fluid density [m4/s2]
+  GrainPacking packing;
+  std::optional<SelfDisturbance> self_disturbance;   // tables, made with the first step of a scene that has the term
+  std::vector<Vec3> vorticity;                       // curl u at the grain [1/s]; where a term asks for it
+  std::vector<Vec3> removed;       // own disturbance that `drag` is corrected for, by 1/(1 - removed) [-]; empty: none
   std::uint64_t void_clamps = 0;   // grains whose void fraction lay below 0.26
+  std::uint64_t disturbance_clamps = 0;   // grains whose own flow was clamped at 0.7 of the slip
 };
 
 /// Samples the flow with each grain's own weights and evaluates f_d = 3 pi mu d F(eps, Re) eps w, Re = eps |w| d/nu.
-/// Of the fields only ghosts change.
+/// A lone grain does not see its own volume in eps, nor, where the scene has the term, its own flow in w
+/// (docs/physics_coupling.md, "Self-disturbance"). Of the fields only ghosts change.
 void sample_flow(const StaggeredGrid&, const Grains&, std::span<const Stencil>, FaceFields& velocity,
                  FaceFields& acceleration, Field<Centre>& void_fraction, const DragLaw&, double viscosity, const Terms&,
                  FlowAtGrains&);

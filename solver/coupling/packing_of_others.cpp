@@ -1,0 +1,54 @@
+#include "solver/coupling/packing_of_others.hpp"
+
+namespace bedload {
+namespace {
+
+/// Sum of the squares of a grain's spline weights along one direction, those that fold onto one cell added first.
+double own_share(const StaggeredGrid& grid, int direction, double x) {
+  const int n = grid.cells[direction];
+  const double s = x / grid.h[direction];
+  const int cell = cell_of(s, n);
+  const auto weights = quadratic_spline(s - cell - 0.5);
+  const auto home = [&](int i) { return grid.periodic(direction) ? (i + n) % n : std::clamp(i, 0, n - 1); };
+  double sum = 0;
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      if (home(cell - 1 + a) == home(cell - 1 + b)) sum += weights[a] * weights[b];
+  return sum;
+}
+
+/// Mean packing density of every plane of cells, with one plane of ghosts at either end.
+std::vector<double> plane_means(const StaggeredGrid& grid, const Field<Centre>& void_fraction) {
+  const int n = grid.cells[2];
+  std::vector<double> means(n + 2);
+  for (int i = 0; i < grid.cells[0]; ++i)
+    for (int j = 0; j < grid.cells[1]; ++j) {
+      const double* row = void_fraction.data() + grid.index(i, j, 0);
+      for (int k = 0; k < n; ++k) means[k + 1] += 1 - row[k];
+    }
+  for (double& mean : means) mean /= grid.cells[0] * grid.cells[1];
+  means.front() = grid.periodic(2) ? means[n] : means[1];
+  means.back() = grid.periodic(2) ? means[1] : means[n];
+  return means;
+}
+
+}   // namespace
+
+void find_packing(const StaggeredGrid& grid, const Grains& grains, const Field<Centre>& void_fraction,
+                  std::span<const double> sampled, GrainPacking& packing) {
+  packing.own.resize(grains.size()), packing.others.resize(grains.size());
+  const std::vector<double> means = plane_means(grid, void_fraction);
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const Vec3& x = grains.position[p];
+    const double volume = sphere_volume(grains.diameter[p]) / grid.cell_volume(), along = own_share(grid, 2, x.z);
+    packing.own[p] = volume * own_share(grid, 0, x.x) * own_share(grid, 1, x.y) * along;
+    const double s = x.z / grid.h.z;
+    const int k = cell_of(s, grid.cells[2]);
+    const auto w = quadratic_spline(s - k - 0.5);
+    const double plane = w[0] * means[k] + w[1] * means[k + 1] + w[2] * means[k + 2];
+    packing.others[p] =
+        std::max(1 - sampled[p] - packing.own[p], plane - volume * along / (grid.cells[0] * grid.cells[1]));
+  }
+}
+
+}   // namespace bedload
