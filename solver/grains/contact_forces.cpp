@@ -59,10 +59,31 @@ void fetch(std::span<const Body> bodies, const PairContacts& pairs, std::size_t 
   }
 }
 
+/// What a dry contact remembers, and what one in a liquid does: the damping chosen when it began.
+struct DryDamping {
+  Damping all;
+  Damping of(std::size_t, const Overlap&) const noexcept { return all; }
+};
+
+struct WetDamping {
+  const HertzMindlin& law;
+  const WetRestitution& wet;
+  const double* __restrict viscous_speed;
+  double* __restrict alpha;   // negative: apart
+
+  Damping of(std::size_t k, const Overlap& o) const noexcept {
+    const double chosen = wet.damping(viscous_speed[k], dot(o.velocity, o.normal));
+    const double kept = alpha[k] < 0 ? chosen : alpha[k];
+    alpha[k] = o.depth > 0 ? kept : -1;
+    return law.damping(kept);
+  }
+};
+
 // Lever arms are r - depth/2: they add up to the distance, so angular momentum is kept. (G9)
-void respond(const HertzMindlin& law, const PeriodicBox& box, double dt, const PairContacts& pairs, std::size_t first,
-             std::size_t count, PairBlock& b, double* __restrict depth, double* __restrict sx, double* __restrict sy,
-             double* __restrict sz) noexcept {
+template <class DampingOf>
+void respond(const HertzMindlin& law, const DampingOf& damping, const PeriodicBox& box, double dt,
+             const PairContacts& pairs, std::size_t first, std::size_t count, PairBlock& b, double* __restrict depth,
+             double* __restrict sx, double* __restrict sy, double* __restrict sz) noexcept {
   const double* root_radius = pairs.root_radius.data() + first;
   const double* mass = pairs.mass.data() + first;
   for (std::size_t k = 0; k < count; ++k) {
@@ -77,7 +98,7 @@ void respond(const HertzMindlin& law, const PeriodicBox& box, double dt, const P
     const double arm_b = 0.5 * (distance + b.radius_difference[k]);
     const Vec3 spin = arm_a * Vec3{b.ax[k], b.ay[k], b.az[k]} + arm_b * Vec3{b.bx[k], b.by[k], b.bz[k]};
     o.velocity = Vec3{b.vx[k], b.vy[k], b.vz[k]} + cross(spin, o.normal);
-    const ContactForce r = law.respond(o, {sx[k], sy[k], sz[k]}, dt);
+    const ContactForce r = law.respond(o, {sx[k], sy[k], sz[k]}, dt, damping.of(k, o));
     const Vec3 turn = cross(o.normal, r.force);
     depth[k] = o.depth;
     sx[k] = r.spring.x, sy[k] = r.spring.y, sz[k] = r.spring.z;
@@ -110,21 +131,25 @@ void add_up(const PairContacts& pairs, std::size_t first, std::size_t count, con
 
 }   // namespace
 
-void add_pair_forces(const HertzMindlin& law, const PeriodicBox& box, std::span<const Body> bodies, double dt,
-                     PairContacts& pairs, std::span<Load> loads) noexcept {
+void add_pair_forces(const HertzMindlin& law, const WetRestitution* wet, const PeriodicBox& box,
+                     std::span<const Body> bodies, double dt, PairContacts& pairs, std::span<Load> loads) noexcept {
   PairBlock block;
   for (std::size_t first = 0; first < pairs.size(); first += block_size) {
     const std::size_t count = std::min(block_size, pairs.size() - first);
     fetch(bodies, pairs, first, count, block);
-    respond(law, box, dt, pairs, first, count, block, pairs.depth.data() + first, pairs.spring_x.data() + first,
-            pairs.spring_y.data() + first, pairs.spring_z.data() + first);
+    const auto respond_with = [&](const auto& damping) {
+      respond(law, damping, box, dt, pairs, first, count, block, pairs.depth.data() + first,
+              pairs.spring_x.data() + first, pairs.spring_y.data() + first, pairs.spring_z.data() + first);
+    };
+    if (wet) respond_with(WetDamping{law, *wet, pairs.viscous_speed.data() + first, pairs.damping.data() + first});
+    else respond_with(DryDamping{law.damping()});
     add_up(pairs, first, count, block, loads);
   }
 }
 
-Vec3 add_wall_forces(const HertzMindlin& rough, const HertzMindlin& smooth, std::span<const FlatWall> walls,
-                     std::span<const Body> bodies, double dt, double lid_speed, std::span<WallContact> contacts,
-                     std::span<Load> loads) noexcept {
+Vec3 add_wall_forces(const HertzMindlin& rough, const HertzMindlin& smooth, const WetRestitution* wet,
+                     std::span<const FlatWall> walls, std::span<const Body> bodies, double dt, double lid_speed,
+                     std::span<WallContact> contacts, std::span<Load> loads) noexcept {
   Vec3 on_walls;
   for (WallContact& contact : contacts) {
     const FlatWall& wall = walls[contact.wall];
@@ -137,7 +162,10 @@ Vec3 add_wall_forces(const HertzMindlin& rough, const HertzMindlin& smooth, std:
     o.normal = wall.normal();
     const double arm = body.radius - 0.5 * o.depth;
     o.velocity = body.velocity - wall_velocity + arm * cross(body.spin, o.normal);
-    const ContactForce r = (wall.rough ? rough : smooth).respond(o, contact.spring, dt);
+    const HertzMindlin& law = wall.rough ? rough : smooth;
+    const Damping damping =
+        wet ? WetDamping{law, *wet, &contact.viscous_speed, &contact.damping}.of(0, o) : law.damping();
+    const ContactForce r = law.respond(o, contact.spring, dt, damping);
     contact.spring = r.spring;
     loads[contact.grain].force += r.force;
     loads[contact.grain].torque += arm * cross(o.normal, r.force);

@@ -5,17 +5,18 @@
 
 #include "solver/grains/contact_laws.hpp"
 #include "solver/grains/neighbour_list.hpp"
+#include "solver/grains/wet_restitution.hpp"
 
 namespace bedload {
 
-/// Adds the contact forces and torques of all pairs to `loads`, and renews springs and depths. Candidates apart add
-/// exact zeros. `loads` starts from zero.
-void add_pair_forces(const HertzMindlin&, const PeriodicBox&, std::span<const Body>, double dt, PairContacts&,
-                     std::span<Load> loads) noexcept;
+/// Adds the contact forces and torques of all pairs to `loads`, and renews springs and depths; with `wet` also the
+/// damping, chosen anew where a contact begins. Candidates apart add exact zeros. `loads` starts from zero.
+void add_pair_forces(const HertzMindlin&, const WetRestitution* wet, const PeriodicBox&, std::span<const Body>,
+                     double dt, PairContacts&, std::span<Load> loads) noexcept;
 
 /// The same for walls, after the pairs. Returns the force of all grains on the walls [N].
-Vec3 add_wall_forces(const HertzMindlin& rough, const HertzMindlin& smooth, std::span<const FlatWall>,
-                     std::span<const Body>, double dt, double lid_speed, std::span<WallContact>,
-                     std::span<Load> loads) noexcept;
+Vec3 add_wall_forces(const HertzMindlin& rough, const HertzMindlin& smooth, const WetRestitution* wet,
+                     std::span<const FlatWall>, std::span<const Body>, double dt, double lid_speed,
+                     std::span<WallContact>, std::span<Load> loads) noexcept;
 
 }   // namespace bedload

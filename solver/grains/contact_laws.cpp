@@ -8,8 +8,8 @@ namespace bedload {
 HertzMindlin::HertzMindlin(const GrainProperties& grains)
     : normal_stiffness_(grains.young_modulus / (1 - grains.poisson * grains.poisson)),
       shear_ratio_(2 * (1 - grains.poisson) / (2 - grains.poisson)),
-      damping_(damping_of_restitution(std::max(grains.restitution, lowest_restitution))),
-      damping_ratio_(std::sqrt(shear_ratio_) * strongest_shear_damping / std::max(damping_, strongest_shear_damping)),
+      root_shear_ratio_(std::sqrt(shear_ratio_)),
+      damping_(damping(damping_of_restitution(std::max(grains.restitution, lowest_restitution)))),
       friction_(grains.friction) {}
 
 HertzMindlin HertzMindlin::without_friction() const {

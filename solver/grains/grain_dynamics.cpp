@@ -4,23 +4,38 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "solver/grains/contact_forces.hpp"
+#include "solver/grains/films.hpp"
 #include "solver/grains/grain_motion.hpp"
+#include "solver/grains/rolling_resistance.hpp"
 
 namespace bedload {
 
 /// Scratch: nothing here outlives a call in meaning. The springs come from and return to the caller's ContactHistory;
 /// the list is used again only if it still covers the grains that are handed in.
 struct GrainDynamics::Workspace {
-  explicit Workspace(const BedScene& scene) : rough(scene.grains), smooth(rough.without_friction()), list(scene) {}
+  Workspace(const BedScene& scene, ContactTerms terms)
+      : rough(scene.grains), smooth(rough.without_friction()), list(scene, wet_law(scene, terms), terms.lubrication) {
+    if (terms.lubrication) films.emplace(scene);
+    if (scene.grains.rolling_friction > 0) rolling.emplace(scene.grains.rolling_friction);
+  }
 
   void take(const Grains&, const GrainDrive&, double dt);
   void give(Grains&, int substeps) const;
   void prepare_list(ContactHistory&, double dt, bool list_holds_springs);
+  Vec3 add_forces(const GrainDrive&, double dt, double lid_speed);
   double deepest_overlap() const;
 
+  const WetRestitution* wet_law(const BedScene& scene, ContactTerms terms) {
+    return terms.wet_restitution ? &wet.emplace(scene.fluid, scene.grains.restitution) : nullptr;
+  }
+
   HertzMindlin rough, smooth;
+  std::optional<WetRestitution> wet;
+  std::optional<Films> films;
+  std::optional<RollingResistance> rolling;
   NeighbourList list;
   std::vector<Body> bodies;
   std::vector<Load> loads;
@@ -30,8 +45,8 @@ struct GrainDynamics::Workspace {
 
 void GrainDynamics::Workspace::take(const Grains& grains, const GrainDrive& drive, double dt) {
   const std::size_t n = grains.size();
-  bodies.resize(n), loads.resize(n), damp.resize(n);
-  sum_of_loads.assign(n, {});
+  bodies.resize(n), damp.resize(n);
+  loads.assign(n, {}), sum_of_loads.assign(n, {});
   for (std::size_t i = 0; i < n; ++i) {
     const double mass = grains.density[i] * sphere_volume(grains.diameter[i]);
     const double inertia = drive.added_mass.empty() ? mass : mass + drive.added_mass[i];
@@ -65,6 +80,18 @@ void GrainDynamics::Workspace::prepare_list(ContactHistory& history, double dt, 
   list.rebuild(bodies, dt, history);
 }
 
+/// The loads of a sub-step, films last: they act on the velocity that all other forces would leave. Returns the force of
+/// the grains on the walls [N].
+Vec3 GrainDynamics::Workspace::add_forces(const GrainDrive& drive, double dt, double lid_speed) {
+  const WetRestitution* const damping = wet ? &*wet : nullptr;
+  add_pair_forces(rough, damping, list.box(), bodies, dt, list.pairs, loads);
+  Vec3 on_walls =
+      add_wall_forces(rough, smooth, damping, list.walls(), bodies, dt, lid_speed, list.wall_contacts, loads);
+  if (rolling) add_rolling_torques(*rolling, rough, bodies, dt, list, loads);
+  if (films) on_walls += films->add_forces(list, bodies, drive.push, damp, dt, loads);
+  return on_walls;
+}
+
 double GrainDynamics::Workspace::deepest_overlap() const {
   double deepest = 0;
   for (std::size_t k = 0; k < list.pairs.size(); ++k) {
@@ -75,7 +102,8 @@ double GrainDynamics::Workspace::deepest_overlap() const {
   return deepest;
 }
 
-GrainDynamics::GrainDynamics(const BedScene& scene, ContactTerms) : work_(std::make_unique<Workspace>(scene)) {}
+GrainDynamics::GrainDynamics(const BedScene& scene, ContactTerms terms)
+    : work_(std::make_unique<Workspace>(scene, terms)) {}
 GrainDynamics::~GrainDynamics() = default;
 void GrainDynamics::forget() { work_->list.forget(); }
 
@@ -86,13 +114,9 @@ GrainHealth GrainDynamics::advance(Grains& grains, ContactHistory& contacts, con
   w.take(grains, drive, dt);
   for (int s = 0; s < substeps; ++s) {
     w.prepare_list(contacts, dt, s > 0);
-    std::ranges::fill(w.loads, Load{});
-    add_pair_forces(w.rough, w.list.box(), w.bodies, dt, w.list.pairs, w.loads);
-    health.force_on_walls +=
-        add_wall_forces(w.rough, w.smooth, w.list.walls(), w.bodies, dt, lid_speed, w.list.wall_contacts, w.loads);
-    for (std::size_t i = 0; i < w.loads.size(); ++i) w.sum_of_loads[i] += w.loads[i];
+    health.force_on_walls += w.add_forces(drive, dt, lid_speed);
     spin_bodies(w.bodies, drive.spin_push, dt);
-    move_bodies(w.bodies, w.loads, drive.push, w.damp, dt);
+    move_bodies(w.bodies, w.loads, drive.push, w.damp, dt, w.sum_of_loads);
   }
   w.list.save(contacts);
   w.give(grains, substeps);

@@ -6,6 +6,7 @@
 
 #include "solver/grains/bed_scene.hpp"
 #include "solver/grains/contact_history.hpp"
+#include "solver/grains/contact_terms.hpp"
 #include "solver/grains/grains.hpp"
 
 namespace bedload {
@@ -16,12 +17,6 @@ struct GrainHealth {
   std::uint64_t contacts = 0;   // touching pairs at the end, walls included
 };
 
-/// What the liquid between two grains does to their collision: nothing, or one of the two.
-struct ContactTerms {
-  bool wet_restitution = false;   // the rebound falls with the Stokes number of the approach
-  bool lubrication = false;       // the film resists approach and parting, before contact and during it
-};
-
 /// What acts on the grains besides contacts, constant over a call: one entry per grain, or empty for none.
 struct GrainDrive {
   std::span<const Vec3> push{};           // acceleration of the grain with its added mass [m/s2]; never empty
@@ -30,8 +25,8 @@ struct GrainDrive {
   std::span<const double> added_mass{};   // inertia of the liquid that moves with the grain, translation only [kg]
 };
 
-/// Advances the grains by sub-steps of {contact forces at x^n, v^n; v += dt (push + F/m); x += dt v} (symplectic Euler:
-/// no hidden memory). Sums of contact forces are in order of partner id. Positions are not wrapped here: they may leave
+/// Advances the grains by sub-steps of {contact forces at x^n, v^n; v += dt (push + F/m); films slow v; x += dt v}
+/// (symplectic Euler: no hidden memory). Sums of contact forces are in order of partner id. Positions are not wrapped here: they may leave
 /// a periodic box during the call. Fixed grains keep position, velocity and spin.
 class GrainDynamics {
  public:

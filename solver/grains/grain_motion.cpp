@@ -3,14 +3,17 @@
 
 namespace bedload {
 
-void move_bodies(std::span<Body> bodies, std::span<const Load> loads, std::span<const Vec3> push,
-                 std::span<const double> damp, double dt) noexcept {
+void move_bodies(std::span<Body> bodies, std::span<Load> loads, std::span<const Vec3> push,
+                 std::span<const double> damp, double dt, std::span<Load> sums) noexcept {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Body& b = bodies[i];
-    if (b.inverse_mass == 0) continue;
-    b.velocity = damp[i] * (b.velocity + dt * (push[i] + b.inverse_mass * loads[i].force));
-    b.spin += (dt * b.inverse_inertia) * loads[i].torque;
-    b.position += dt * b.velocity;
+    if (b.inverse_mass != 0) {
+      b.velocity = pushed(b, loads[i].force, push[i], damp[i], dt);
+      b.spin += (dt * b.inverse_inertia) * loads[i].torque;
+      b.position += dt * b.velocity;
+    }
+    sums[i] += loads[i];
+    loads[i] = {};
   }
 }
 

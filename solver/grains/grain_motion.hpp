@@ -7,12 +7,18 @@
 
 namespace bedload {
 
-/// Symplectic Euler: velocity and spin from the loads, then place from the new velocity. `push` [m/s2] acts beside the
-/// contacts; `damp` = 1/(1 + dt rate) is the implicit linear drag to rest [-]. Fixed bodies stay as they are.
-void move_bodies(std::span<Body>, std::span<const Load>, std::span<const Vec3> push, std::span<const double> damp,
-                 double dt) noexcept;
+/// Velocity that a body has after a step under this force [m/s]. `push` [m/s2] acts beside it; `damp` = 1/(1 + dt rate)
+/// is the implicit linear drag to rest [-].
+inline Vec3 pushed(const Body& b, Vec3 force, Vec3 push, double damp, double dt) noexcept {
+  return damp * (b.velocity + dt * (push + b.inverse_mass * force));
+}
 
-/// Turns mobile bodies faster by `spin_push` [rad/s2]; empty: nothing happens.
+/// Symplectic Euler: velocity and spin from the loads, then place from the new velocity. Fixed bodies stay as they are.
+/// The loads are added to `sums` and cleared for the next step.
+void move_bodies(std::span<Body>, std::span<Load>, std::span<const Vec3> push, std::span<const double> damp, double dt,
+                 std::span<Load> sums) noexcept;
+
+/// Turns bodies that are not fixed faster by `spin_push` [rad/s2]; empty: nothing happens.
 void spin_bodies(std::span<Body>, std::span<const Vec3> spin_push, double dt) noexcept;
 
 }   // namespace bedload

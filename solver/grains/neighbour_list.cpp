@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "solver/grains/film_law.hpp"
+
 namespace bedload {
 namespace {
 
@@ -14,6 +16,9 @@ double skin_of(const Body& body, double dt) {
   return std::min(0.01 * diameter + 1.3 * 25 * dt * norm(body.velocity), 0.2 * diameter);
 }
 
+// R* of two grains is at most a quarter of r_i + r_j, so that these parts reach the thickest film.
+constexpr double film_reach = FilmLaw::thickest / 4;
+
 double reduced_mass(const Body& a, const Body& b) { return 1 / (a.inverse_mass + b.inverse_mass); }
 
 bool before(std::uint32_t lower_a, std::uint32_t higher_a, std::uint32_t lower_b, std::uint32_t higher_b) {
@@ -22,11 +27,8 @@ bool before(std::uint32_t lower_a, std::uint32_t higher_a, std::uint32_t lower_b
 
 }   // namespace
 
-void PairContacts::resize_to_ids() {
-  for (auto* array : {&root_radius, &mass, &depth, &spring_x, &spring_y, &spring_z}) array->resize(ids.size());
-}
-
-NeighbourList::NeighbourList(const BedScene& scene) : box_(scene), walls_(walls_of(scene)) {}
+NeighbourList::NeighbourList(const BedScene& scene, const WetRestitution* wet, bool films)
+    : box_(scene), walls_(walls_of(scene)), wet_(wet), films_(films), rolls_(scene.grains.rolling_friction > 0) {}
 
 bool NeighbourList::same_grains(std::span<const Body> bodies) const noexcept {
   if (origin_.size() != bodies.size()) return false;
@@ -72,7 +74,7 @@ void NeighbourList::rebuild(std::span<const Body> bodies, double dt, const Conta
     origin_[i] = {bodies[i].position, skin * skin};
     radius_[i] = bodies[i].radius;
     inverse_mass_[i] = bodies[i].inverse_mass;
-    reach_[i] = bodies[i].radius + skin;
+    reach_[i] = bodies[i].radius + skin + (films_ ? film_reach * bodies[i].radius : 0);
     position_[i] = bodies[i].position;
     fixed_[i] = bodies[i].inverse_mass == 0;
     largest = std::max(largest, 2 * bodies[i].radius);
@@ -85,11 +87,15 @@ void NeighbourList::rebuild(std::span<const Body> bodies, double dt, const Conta
 
 void NeighbourList::list_pairs(std::span<const Body> bodies) {
   find_near_pairs(box_, position_, reach_, fixed_, pairs.ids);
-  pairs.resize_to_ids();
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
+  const std::size_t n = pairs.size();
+  for (auto* array : {&pairs.root_radius, &pairs.mass, &pairs.depth, &pairs.spring_x, &pairs.spring_y, &pairs.spring_z})
+    array->resize(n);
+  pairs.viscous_speed.resize(wet_ ? n : 0), pairs.damping.resize(wet_ ? n : 0), pairs.rolling.resize(rolls_ ? n : 0);
+  for (std::size_t k = 0; k < n; ++k) {
     const Body &a = bodies[pairs.ids.lower[k]], &b = bodies[pairs.ids.higher[k]];
     pairs.root_radius[k] = std::sqrt(a.radius * b.radius / (a.radius + b.radius));
     pairs.mass[k] = reduced_mass(a, b);
+    if (wet_) pairs.viscous_speed[k] = wet_->viscous_speed(a, b);
   }
 }
 
@@ -98,9 +104,11 @@ void NeighbourList::list_walls(std::span<const Body> bodies) {
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
     if (fixed_[i]) continue;
+    const double reach = reach_[i] + (films_ ? (FilmLaw::thickest - film_reach) * body.radius : 0);   // R* = r
     for (std::uint32_t w = 0; w < walls_.size(); ++w) {
-      if (walls_[w].depth(body.position, reach_[i]) > 0)
-        wall_contacts.push_back({i, w, std::sqrt(body.radius), 1 / body.inverse_mass, 0, {}});
+      if (!(walls_[w].depth(body.position, reach) > 0)) continue;
+      wall_contacts.push_back({i, w, std::sqrt(body.radius), 1 / body.inverse_mass, 0, {}});
+      if (wet_) wall_contacts.back().viscous_speed = wet_->viscous_speed_at_wall(body);
     }
   }
 }
@@ -108,7 +116,11 @@ void NeighbourList::list_walls(std::span<const Body> bodies) {
 void NeighbourList::load(const ContactHistory& history) {
   std::size_t pair = 0, touch = 0;
   for (auto* array : {&pairs.depth, &pairs.spring_x, &pairs.spring_y, &pairs.spring_z}) std::ranges::fill(*array, 0.0);
-  for (auto& contact : wall_contacts) contact.depth = 0, contact.spring = {};
+  std::ranges::fill(pairs.damping, -1.0);
+  std::ranges::fill(pairs.rolling, Vec3{});
+  for (auto& contact : wall_contacts)
+    contact.depth = 0, contact.spring = {}, contact.damping = -1, contact.rolling = {};
+  const bool damped = wet_ && !history.damping.empty(), rolls = rolls_ && !history.rolling.empty();
   for (std::size_t h = 0; h < history.size(); ++h) {
     const auto lower = history.lower[h], higher = history.higher[h];
     if (higher >= static_cast<std::uint32_t>(Wall::x_low)) {
@@ -117,21 +129,27 @@ void NeighbourList::load(const ContactHistory& history) {
                     lower, higher))
         ++touch;
       if (touch < wall_contacts.size() && wall_contacts[touch].grain == lower &&
-          static_cast<std::uint32_t>(walls_[wall_contacts[touch].wall].name) == higher)
+          static_cast<std::uint32_t>(walls_[wall_contacts[touch].wall].name) == higher) {
         wall_contacts[touch].spring = history.spring[h];
+        if (damped) wall_contacts[touch].damping = history.damping[h];
+        if (rolls) wall_contacts[touch].rolling = history.rolling[h];
+      }
     } else {
       while (pair < pairs.size() && before(pairs.ids.lower[pair], pairs.ids.higher[pair], lower, higher)) ++pair;
       if (pair < pairs.size() && pairs.ids.lower[pair] == lower && pairs.ids.higher[pair] == higher) {
         pairs.spring_x[pair] = history.spring[h].x;
         pairs.spring_y[pair] = history.spring[h].y;
         pairs.spring_z[pair] = history.spring[h].z;
+        if (damped) pairs.damping[pair] = history.damping[h];
+        if (rolls) pairs.rolling[pair] = history.rolling[h];
       }
     }
   }
 }
 
 void NeighbourList::save(ContactHistory& history) const {
-  history.lower.clear(), history.higher.clear(), history.spring.clear();
+  history.lower.clear(), history.higher.clear(), history.spring.clear(), history.damping.clear(),
+      history.rolling.clear();
   const auto remember = [&](std::uint32_t lower, std::uint32_t higher, Vec3 spring) {
     history.lower.push_back(lower), history.higher.push_back(higher), history.spring.push_back(spring);
   };
@@ -139,13 +157,18 @@ void NeighbourList::save(ContactHistory& history) const {
   const auto walls_of_grains_below = [&](std::uint32_t grain) {
     for (; touch < wall_contacts.size() && wall_contacts[touch].grain < grain; ++touch) {
       const WallContact& c = wall_contacts[touch];
-      if (c.depth > 0) remember(c.grain, static_cast<std::uint32_t>(walls_[c.wall].name), c.spring);
+      if (!(c.depth > 0)) continue;
+      remember(c.grain, static_cast<std::uint32_t>(walls_[c.wall].name), c.spring);
+      if (wet_) history.damping.push_back(c.damping);
+      if (rolls_) history.rolling.push_back(c.rolling);
     }
   };
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (!(pairs.depth[k] > 0)) continue;
     walls_of_grains_below(pairs.ids.lower[k]);
     remember(pairs.ids.lower[k], pairs.ids.higher[k], {pairs.spring_x[k], pairs.spring_y[k], pairs.spring_z[k]});
+    if (wet_) history.damping.push_back(pairs.damping[k]);
+    if (rolls_) history.rolling.push_back(pairs.rolling[k]);
   }
   walls_of_grains_below(UINT32_MAX);
 }

@@ -9,6 +9,7 @@
 #include "solver/grains/box_walls.hpp"
 #include "solver/grains/contact_history.hpp"
 #include "solver/grains/neighbour_search.hpp"
+#include "solver/grains/wet_restitution.hpp"
 
 namespace bedload {
 
@@ -20,24 +21,29 @@ struct PairContacts {
   std::vector<double> mass;                           // m* [kg]
   std::vector<double> depth;                          // at the last pass [m]; not positive: apart
   std::vector<double> spring_x, spring_y, spring_z;   // [m]
+  std::vector<double> viscous_speed;                  // of WetRestitution [m/s]; empty without
+  std::vector<double> damping;                        // alpha, negative where apart [-]; empty without
+  std::vector<Vec3> rolling;                          // rolling spring [rad]; empty without rolling friction
 
   std::size_t size() const { return ids.size(); }
-  void resize_to_ids();
 };
 
 /// Candidates for contact with walls, sorted by grain then wall.
 struct WallContact {
   std::uint32_t grain;
-  std::uint32_t wall;   // place in the list of walls
-  double root_radius;   // sqrt of the grain's radius [m^1/2]
-  double mass;          // of the grain [kg]
-  double depth;         // at the last pass [m]
-  Vec3 spring;          // [m]
+  std::uint32_t wall;                       // place in the list of walls
+  double root_radius;                       // sqrt of the grain's radius [m^1/2]
+  double mass;                              // of the grain [kg]
+  double depth;                             // at the last pass [m]
+  Vec3 spring;                              // [m]
+  double viscous_speed = 0, damping = -1;   // as for pairs
+  Vec3 rolling;
 };
 
 class NeighbourList {
  public:
-  explicit NeighbourList(const BedScene&);
+  /// `wet` (or null) must outlive the list.
+  NeighbourList(const BedScene&, const WetRestitution* wet, bool films);
 
   /// True if the list is of these very grains, and every pair that may touch now is in it. `bodies` may have been
   /// wrapped since the list was made, and may be heavier or lighter now (added mass).
@@ -63,6 +69,8 @@ class NeighbourList {
 
   PeriodicBox box_;
   std::vector<FlatWall> walls_;
+  const WetRestitution* wet_;
+  bool films_, rolls_;
   /// Where a grain was when the list was made, and how far it may have moved.
   struct Origin {
     Vec3 position;   // [m]
@@ -74,7 +82,7 @@ class NeighbourList {
   std::vector<Origin> origin_;
   std::vector<double> radius_, inverse_mass_;   // then
   std::vector<Vec3> position_;                  // for the search
-  std::vector<double> reach_;                   // radius and skin [m]
+  std::vector<double> reach_;                   // radius and skin, and a pair's part of a film [m]
   std::vector<std::uint8_t> fixed_;
 };
 

@@ -10,31 +10,28 @@ namespace bedload {
 namespace {
 
 template <class T>
-void reorder(std::vector<T>& array, const std::vector<std::uint32_t>& old_id) {
+void reorder(std::vector<T>& array, const std::vector<std::uint32_t>& old_place) {
   std::vector<T> ordered(array.size());
-  for (std::size_t i = 0; i < array.size(); ++i) ordered[i] = array[old_id[i]];
+  for (std::size_t i = 0; i < array.size(); ++i) ordered[i] = array[old_place[i]];
   array.swap(ordered);
 }
 
 void renumber(ContactHistory& contacts, const std::vector<std::uint32_t>& new_id) {
-  struct Contact {
-    std::uint32_t lower, higher;
-    Vec3 spring;
-  };
-  std::vector<Contact> renamed(contacts.size());
   for (std::size_t k = 0; k < contacts.size(); ++k) {
-    std::uint32_t lower = new_id[contacts.lower[k]], higher = contacts.higher[k];
-    Vec3 spring = contacts.spring[k];
-    if (higher < new_id.size()) higher = new_id[higher];              // else a wall
-    if (lower > higher) std::swap(lower, higher), spring = -spring;   // it is the spring of the lower grain
-    renamed[k] = {lower, higher, spring};
+    std::uint32_t &lower = contacts.lower[k], &higher = contacts.higher[k];
+    lower = new_id[lower];
+    if (higher < new_id.size()) higher = new_id[higher];   // else a wall
+    if (lower < higher) continue;
+    std::swap(lower, higher);   // springs are those of the lower grain
+    contacts.spring[k] = -contacts.spring[k];
+    if (!contacts.rolling.empty()) contacts.rolling[k] = -contacts.rolling[k];
   }
-  std::ranges::sort(renamed, {}, [](const Contact& c) { return std::tuple(c.lower, c.higher); });
-  for (std::size_t k = 0; k < renamed.size(); ++k) {
-    contacts.lower[k] = renamed[k].lower;
-    contacts.higher[k] = renamed[k].higher;
-    contacts.spring[k] = renamed[k].spring;
-  }
+  std::vector<std::uint32_t> old_place(contacts.size());
+  std::iota(old_place.begin(), old_place.end(), 0u);
+  std::ranges::sort(old_place, {}, [&](std::uint32_t k) { return std::tuple(contacts.lower[k], contacts.higher[k]); });
+  reorder(contacts.lower, old_place), reorder(contacts.higher, old_place), reorder(contacts.spring, old_place);
+  if (!contacts.damping.empty()) reorder(contacts.damping, old_place);
+  if (!contacts.rolling.empty()) reorder(contacts.rolling, old_place);
 }
 
 }   // namespace

@@ -1,0 +1,34 @@
+// The liquid between two grains that are about to meet, meet, or part: lubrication.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/grains/film_law.hpp"
+#include "solver/grains/neighbour_list.hpp"
+
+namespace bedload {
+
+/// The films of all pairs and walls at one instant. Each is implicit in the speed of its own pair; so that a grain among
+/// many films is stable too, whatever the step, each film has its share of the grain's mass.
+class Films {
+ public:
+  explicit Films(const BedScene& scene) : law_(scene) {}
+
+  /// Adds the films' forces to `loads`, which hold all others. `push` and `damp` are those of move_bodies; depths are those
+  /// of the contact pass of the same step. Returns the force of all grains on the walls through films [N].
+  Vec3 add_forces(const NeighbourList&, std::span<const Body>, std::span<const Vec3> push, std::span<const double> damp,
+                  double dt, std::span<Load> loads);
+
+ private:
+  void prepare(std::span<const Body>, std::span<const Load>, std::span<const Vec3> push, std::span<const double> damp,
+               double dt);
+  void count(const NeighbourList&);
+
+  FilmLaw law_;
+  std::vector<Vec3> velocity_;     // that grains would have without films [m/s]
+  std::vector<double> mobility_;   // change of it by an impulse on the share that each film has of a grain [1/kg]
+  std::vector<double> films_of_;   // how many a grain has [-]
+};
+
+}   // namespace bedload
