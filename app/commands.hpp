@@ -37,6 +37,15 @@ int curve_command(const StudyOptions&);
 int query_command(const StudyOptions&, const std::string& sql);
 int report_command(const StudyOptions&);
 
+struct ValidateOptions {
+  std::vector<std::string> groups;   // none = all but extremes
+  bool quick = false, list = false;
+  std::optional<int> cores;
+  std::optional<std::string> write;   // folder for verification.md and its figures
+  Form form = Form::table;
+};
+int validate_command(const ValidateOptions&);
+
 int inspect_command(const std::string& checkpoint, bool digest, bool verify, Form);
 
 /// report.html of a study, published; its path.

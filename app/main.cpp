@@ -23,6 +23,13 @@ std::string version_text() {
 
 constexpr int most_workers = 4096;
 
+/// What CLI11 asks of a number of workers: the complaint, or nothing.
+std::string check_workers(const std::string& given) {
+  int workers = 0;
+  const bool fits = CLI::detail::lexical_cast(given, workers) && workers >= 1 && workers <= most_workers;
+  return fits ? "" : fmt::format("{} is not a number of workers from 1 to {}", given, most_workers);
+}
+
 [[noreturn]] void not_in_this_version(const std::string& command) {
   throw Error(ErrorKind::unavailable, fmt::format("`bedload {}` is not in this version", command),
               "`bedload --help` lists the commands");
@@ -44,10 +51,12 @@ struct CommandLine {
   void forms(CLI::App*, bool csv = true);
   void study_commands();
   void result_commands();
+  void validate_commands();
   void case_commands();
   void later_commands();
 
   RunOptionsOfCommand run_;
+  ValidateOptions validate_;
   StudyOptions& study_ = run_.study;
   std::string name_, directory_, sql_, checkpoint_;
   std::optional<std::string> until_;
@@ -91,12 +100,7 @@ void CommandLine::study_commands() {
   auto* run = add("run", "start or resume; running it again is always safe", "bedload run shields.toml --cores 4",
                   [this] { return run_command(run_); });
   study_argument(run);
-  run->add_option("--cores", run_.cores, "workers side by side (default: the study file's)")
-      ->check([](const std::string& given) {
-        int workers = 0;
-        const bool fits = CLI::detail::lexical_cast(given, workers) && workers >= 1 && workers <= most_workers;
-        return fits ? "" : fmt::format("{} is not a number of workers from 1 to {}", given, most_workers);
-      });
+  run->add_option("--cores", run_.cores, "workers side by side (default: the study file's)")->check(check_workers);
   run->add_option("--only", study_.cases, "these cases: id prefixes, labels, globs of labels");
   run->add_flag("--prepare", run_.prepare, "make the case directories and stop");
   run->add_flag("--rescan", run_.rescan, "rebuild the database from the case directories first");
@@ -144,6 +148,20 @@ void CommandLine::result_commands() {
   study_argument(report);
 }
 
+void CommandLine::validate_commands() {
+  auto* validate = add("validate", "the validation ladder: reference, ours, band, pass or not",
+                       "bedload validate contact settling --quick", [this] {
+                         validate_.form = study_.form;
+                         return validate_command(validate_);
+                       });
+  validate->add_option("GROUP", validate_.groups, "contact, settling, bed, fluid, onset (default: all of these)");
+  validate->add_flag("--quick", validate_.quick, "a part of them, at most 3 minutes on 2 cores");
+  validate->add_flag("--list", validate_.list, "which studies there are; run nothing");
+  validate->add_option("--cores", validate_.cores, "cases side by side (default: all cores)")->check(check_workers);
+  validate->add_option("--write", validate_.write, "write verification.md and its figures into this folder");
+  forms(validate);
+}
+
 void CommandLine::case_commands() {
   auto* inspect =
       add("inspect", "what is in a checkpoint", "bedload inspect shields/cases/0123456789ab/ck-1200.h5 --digest",
@@ -161,7 +179,7 @@ void CommandLine::case_commands() {
 }
 
 void CommandLine::later_commands() {
-  for (const char* name : {"validate", "trade", "view", "prune", "doctor"}) {
+  for (const char* name : {"trade", "view", "prune", "doctor"}) {
     auto* command = app.add_subcommand(name, "not in this version")->group("");
     command->allow_extras();
     command->callback([name] { not_in_this_version(name); });
@@ -175,6 +193,7 @@ CommandLine::CommandLine() {
   app.add_flag("-v,--verbose", verbose_, "more of them");
   study_commands();
   result_commands();
+  validate_commands();
   case_commands();
   later_commands();
 }

@@ -44,7 +44,7 @@ std::string toml_value(const StudyKey& key, const Input& input) {
   }
   if (const auto* word = std::get_if<std::string>(&input)) return fmt::format("\"{}\"", *word);
   if (const auto* words = std::get_if<std::vector<std::string>>(&input))
-    return fmt::format("[\"{}\"]", fmt::join(*words, "\", \""));
+    return words->empty() ? "[]" : fmt::format("[\"{}\"]", fmt::join(*words, "\", \""));
   return fmt::format("[{}]", fmt::join(std::get<std::vector<std::uint64_t>>(input), ", "));
 }
 

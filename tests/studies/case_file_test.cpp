@@ -47,6 +47,11 @@ TEST(CaseFile, KeepsEveryKindOfSetting) {
   for (const auto& one : unfold(parse_study(sloped, "study.toml"))) expect_same_after_writing(one.inputs);
 }
 
+TEST(CaseFile, KeepsAnEmptyListOfTerms) {
+  const auto cases = unfold(parse_study(std::string(good_study) + "\n[models]\nterms = []\n", "study.toml"));
+  for (const auto& one : cases) expect_same_after_writing(one.inputs);
+}
+
 TEST(CaseFile, CarriesATableOfGrains) {
   TemporaryDirectory directory;
   std::ofstream(directory.path() / "two.csv")

@@ -1,0 +1,107 @@
+// `bedload validate`: the ladder, climbed and printed.
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.hpp"
+#include "app/tables.hpp"
+#include "base/durable_file.hpp"
+#include "base/log.hpp"
+#include "studies/validation.hpp"
+#include "studies/verification_document.hpp"
+
+namespace bedload {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+int list_rungs(const std::vector<ValidationGroup>& groups, const ValidateOptions& options) {
+  Rows rows{{"group", "study", "cases", "quick", "what"}, {}};
+  for (const auto& group : groups)
+    for (const auto& rung : group.rungs())
+      rows.rows.push_back(
+          {std::string(group.name), std::string(rung.study), static_cast<std::int64_t>(cases_of(rung, false).size()),
+           static_cast<std::int64_t>(rung.quick ? cases_of(rung, true).size() : 0), std::string(rung.what)});
+  fmt::print("{}", printed(rows, options.form));
+  return 0;
+}
+
+Rows as_rows(const std::vector<RungResult>& rungs) {
+  Rows rows{{"group", "row", "reference", "ours", "deviation", "band", "pass"}, {}};
+  for (const auto& rung : rungs) {
+    for (const auto& row : rung.findings.rows)
+      rows.rows.push_back({rung.group, row.name, row.reference, row.ours, shown_deviation(row), shown_band(row),
+                           std::string(row.in_band() ? "pass" : "NO")});
+    if (!rung.failure.empty()) rows.rows.push_back({rung.group, rung.study, {}, {}, {}, {}, std::string("NOT RUN")});
+  }
+  return rows;
+}
+
+nlohmann::ordered_json as_json(const RungResult& rung) {
+  auto rows = nlohmann::ordered_json::array();
+  for (const auto& row : rung.findings.rows)
+    rows.push_back({{"row", row.name},
+                    {"reference", row.reference},
+                    {"source", row.source},
+                    {"against", row.against == Against::equations ? "code" : "experiment"},
+                    {"ours", row.ours},
+                    {"deviation", row.deviation()},
+                    {"relative", row.band.relative},
+                    {"band_below", row.band.below},
+                    {"band_above", row.band.above},
+                    {"pass", row.in_band()}});
+  return {{"group", rung.group},
+          {"study", rung.study},
+          {"what", rung.what},
+          {"cases", rung.cases},
+          {"core_seconds", rung.core_seconds},
+          {"failure", rung.failure},
+          {"pass", rung.passed()},
+          {"rows", std::move(rows)}};
+}
+
+void print_json(const std::vector<RungResult>& rungs, bool passed) {
+  nlohmann::ordered_json json = {{"pass", passed}, {"rungs", nlohmann::ordered_json::array()}};
+  for (const auto& rung : rungs) json["rungs"].push_back(as_json(rung));
+  fmt::print("{}\n", json.dump(2));
+}
+
+void write_document(const fs::path& folder, const std::vector<RungResult>& rungs) {
+  make_writable_directory(folder / "verification");
+  for (const auto& file : verification_document(rungs)) publish(folder / file.path, file.text);
+  log_note(fmt::format("wrote {}", (folder / "verification.md").string()));
+}
+
+void print_summary(const std::vector<RungResult>& rungs, double wall) {
+  std::size_t rows = 0, good = 0;
+  double core_seconds = 0;
+  for (const auto& rung : rungs) {
+    rows += rung.findings.rows.size();
+    good += static_cast<std::size_t>(std::ranges::count_if(rung.findings.rows, &ValidationRow::in_band));
+    core_seconds += rung.core_seconds;
+    if (!rung.failure.empty()) log_warning(fmt::format("{} was not run to its end: {}", rung.study, rung.failure));
+  }
+  log_note(fmt::format("{} of {} rows in band; {:.0f} s, {:.0f} core seconds", good, rows, wall, core_seconds));
+}
+
+}   // namespace
+
+int validate_command(const ValidateOptions& options) {
+  const auto groups = groups_named(options.groups);
+  if (options.list) return list_rungs(groups, options);
+  const auto began = std::chrono::steady_clock::now();
+  const auto rungs = climb(groups, {.quick = options.quick,
+                                    .cores = options.cores.value_or(0),
+                                    .progress = [](const std::string& line) { log_note(line); }});
+  const bool passed = std::ranges::all_of(rungs, &RungResult::passed);
+  if (options.form == Form::json) print_json(rungs, passed);
+  else fmt::print("{}", printed(as_rows(rungs), options.form));
+  if (options.write) write_document(*options.write, rungs);
+  print_summary(rungs, std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+  return passed ? 0 : static_cast<int>(ErrorKind::some_failed);
+}
+
+}   // namespace bedload

@@ -1,0 +1,255 @@
+// Contact: collisions, friction and rolling of one or two grains, dry and wet.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "studies/svg_plot.hpp"
+#include "studies/validation.hpp"
+
+namespace bedload {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+
+// ---- Two spheres, head-on
+
+/// Of two grains that meet along x: when their surfaces touch and part, how deep they overlap, how fast they part.
+struct Collision {
+  double duration = nan;      // [s]
+  double overlap = nan;       // deepest [m]
+  double restitution = nan;   // parting over approach speed [-]
+};
+
+/// Before and after the contact grains fly free: its ends follow from the gap and the speed of the rows next to it.
+Collision head_on(const FinishedCase& run) {
+  const Trajectory left = trajectory_of(run, 0), right = trajectory_of(run, 1);
+  const double d = run.input("grains.diameter");
+  const auto overlap = [&](std::size_t n) { return d - (right.position[n].x - left.position[n].x); };
+  const auto closing = [&](std::size_t n) { return left.velocity[n].x - right.velocity[n].x; };
+  std::size_t first = 0;
+  while (first < left.size() && overlap(first) <= 0) ++first;
+  std::size_t after = first;
+  Collision seen;
+  seen.overlap = 0;
+  for (; after < left.size() && overlap(after) > 0; ++after) seen.overlap = std::max(seen.overlap, overlap(after));
+  if (first == 0 || after >= left.size()) return {};
+  const double met = left.time[first - 1] - overlap(first - 1) / closing(first - 1);
+  const double parted = left.time[after] - overlap(after) / closing(after);
+  seen.duration = parted - met;
+  seen.restitution = -closing(after) / closing(first - 1);
+  return seen;
+}
+
+Findings hertz(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  for (const auto& run : runs) {
+    const auto& g = run.one.scene.bed.grains;
+    const double d = g.diameter, mass = g.density * std::numbers::pi / 6 * d * d * d / 2, radius = d / 4;
+    const double modulus = g.young_modulus / (2 * (1 - g.poisson * g.poisson));
+    const Trajectory left = trajectory_of(run, 0), right = trajectory_of(run, 1);
+    const double speed = left.velocity.front().x - right.velocity.front().x;
+    const Collision seen = head_on(run);
+    const double duration = 2.87 * std::pow(mass * mass / (radius * modulus * modulus * speed), 0.2);
+    const double overlap = std::pow(15 * mass * speed * speed / (16 * modulus * std::sqrt(radius)), 0.4);
+    found.rows.push_back({.name = fmt::format("duration of a collision at {:.2g} m/s [us]", speed),
+                          .reference = 1e6 * duration,
+                          .source = "Hertz 1882",
+                          .ours = 1e6 * seen.duration,
+                          .band = Band::within(0.01)});
+    found.rows.push_back({.name = fmt::format("deepest overlap at {:.2g} m/s [um]", speed),
+                          .reference = 1e6 * overlap,
+                          .source = "Hertz 1882",
+                          .ours = 1e6 * seen.overlap,
+                          .band = Band::within(0.01)});
+  }
+  return found;
+}
+
+Findings restitution(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  for (const auto& run : runs) {
+    const double asked = run.input("grains.restitution");
+    found.rows.push_back({.name = fmt::format("restitution, asked for {:.2g} [-]", asked),
+                          .reference = asked,
+                          .source = "the study file",
+                          .ours = head_on(run).restitution,
+                          .band = Band::within_absolute(0.01)});
+  }
+  return found;
+}
+
+// ---- A sphere strikes a plate
+
+/// Tangential over normal speed of the point of contact, before and after; both over the normal speed before.
+struct Impact {
+  double before, after;
+};
+
+std::vector<Impact> impacts(const FinishedCase& run) {
+  const double radius = run.input("grains.diameter") / 2;
+  std::vector<Impact> seen;
+  for (const auto grain : run.one.scene.record.tracks) {
+    const Trajectory path = trajectory_of(run, grain);
+    const double normal = -path.velocity.front().z;
+    const auto tangential = [&](std::size_t n) { return path.velocity[n].x - radius * path.spin[n].y; };
+    const bool left = path.velocity.back().z > 0 && path.position.back().z > radius;
+    seen.push_back({tangential(0) / normal, left ? tangential(path.size() - 1) / normal : nan});
+  }
+  return seen;
+}
+
+/// What Foerster, Louge, Chang & Allia (1994) measured for a sphere against a plate of the same material.
+struct Material {
+  std::string_view name;
+  double restitution, friction, tangential;   // e, mu, beta_0
+};
+
+std::string rebound_figure(const Material& m, const std::vector<Impact>& seen) {
+  const double span = seen.back().before * 1.05, stop = 3.5 * (1 + m.restitution) * m.friction;
+  const double sticks_below = stop / (1 + m.tangential);
+  SvgPlot plot(640, 330, {"tangential over normal speed before, Psi1", 0, span},
+               {"the same after, Psi2", -0.25 * span, span}, 190);
+  plot.line({{0, 0}, {span, 0}}, {"#c6ced3", 1, ""});
+  plot.line({{sticks_below, sticks_below - stop}, {span, span - stop}}, {"#333", 1.5, ""});
+  plot.line({{0, 0}, {sticks_below, -m.tangential * sticks_below}}, {"#333", 1.5, "5 3"});
+  for (const auto& one : seen)
+    plot.marker({one.before, one.after}, Marker::circle, "#0b6e99", true,
+                fmt::format("{:.3g} -> {:.4g}", one.before, one.after));
+  plot.legend_line("sliding, exact", {"#333", 1.5, ""});
+  plot.legend_line("sticking, measured", {"#333", 1.5, "5 3"});
+  plot.legend_marker("bedload", Marker::circle, "#0b6e99", true);
+  return plot.svg();
+}
+
+/// A contact slides from beginning to end above this Psi1 (Maw, Barber & Fawcett 1976, elastic spheres on a plane).
+double sliding_throughout(const Material& m, double poisson) {
+  const double ratio = (1 - poisson) / (1 - poisson / 2);   // of tangential to normal stiffness
+  return m.friction * (7 - 1 / ratio);
+}
+
+Findings foerster(const std::vector<FinishedCase>& runs, const Material& m) {
+  Findings found;
+  for (const auto& run : runs) {
+    const auto seen = impacts(run);
+    const double slides_from = sliding_throughout(m, run.input("grains.poisson"));
+    const double stop = 3.5 * (1 + m.restitution) * m.friction, sticks_below = stop / (1 + m.tangential);
+    for (const auto& one : seen) {
+      if (one.before > slides_from)
+        found.rows.push_back({.name = fmt::format("{}, Psi2 at Psi1 = {:.3g}, sliding [-]", m.name, one.before),
+                              .reference = one.before - stop,
+                              .source = "impulse of sliding friction: Psi1 - (7/2)(1 + e) mu",
+                              .ours = one.after,
+                              .band = Band::within(0.01)});
+      else if (one.before < sticks_below)
+        found.rows.push_back({.name = fmt::format("{}, Psi2 at Psi1 = {:.3g}, sticking [-]", m.name, one.before),
+                              .reference = -m.tangential * one.before,
+                              .source = "Foerster et al. 1994: -beta0 Psi1",
+                              .ours = one.after,
+                              .band = Band::within_absolute(0.1),
+                              .against = Against::experiment});
+    }
+    found.figures.push_back(
+        {fmt::format("contact-foerster-{}", m.name),
+         fmt::format(
+             "Tangential speed of the point of contact after a collision with a plate over that before, {}: e = "
+             "{}, mu = {}, beta0 = {} (Foerster, Louge, Chang & Allia 1994).",
+             m.name, m.restitution, m.friction, m.tangential),
+         rebound_figure(m, seen)});
+  }
+  return found;
+}
+
+// ---- A sphere on a plane
+
+/// Mean acceleration along x over the second half of the run [m/s2]: by then it has come to rest on the plane.
+double acceleration(const FinishedCase& run) {
+  const Trajectory path = trajectory_of(run, 0);
+  const std::size_t last = path.size() - 1, middle = last / 2;
+  return (path.velocity[last].x - path.velocity[middle].x) / (path.time[last] - path.time[middle]);
+}
+
+Findings incline(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  for (const auto& run : runs) {
+    const double slope = run.input("box.slope"), mu = run.input("grains.friction"), g = run.input("box.gravity");
+    const bool slides = std::tan(slope) > 3.5 * mu;
+    const double exact = slides ? g * (std::sin(slope) - mu * std::cos(slope)) : 5.0 / 7 * g * std::sin(slope);
+    found.rows.push_back({.name = fmt::format("acceleration down {:.0f} deg, friction {:.2g}: {} [m/s2]",
+                                              degrees(slope), mu, slides ? "slides" : "rolls"),
+                          .reference = exact,
+                          .source = slides ? "g (sin b - mu cos b)" : "(5/7) g sin b",
+                          .ours = acceleration(run),
+                          .band = Band::within(0.005)});
+  }
+  return found;
+}
+
+/// When sliding friction has made the sphere roll: its slip at the plane falls linearly, and is followed from three
+/// quarters of its first value to one quarter, and on to zero.
+double begins_to_roll(const Trajectory& path, double radius) {
+  const auto slip = [&](std::size_t n) { return path.velocity[n].x - radius * path.spin[n].y; };
+  const auto below = [&](double fraction) {
+    std::size_t n = 0;
+    while (n < path.size() && slip(n) > fraction * slip(0)) ++n;
+    return n;
+  };
+  const std::size_t a = below(0.75), b = below(0.25);
+  if (b >= path.size() || b == a) return nan;
+  return path.time[b] + slip(b) * (path.time[b] - path.time[a]) / (slip(a) - slip(b));
+}
+
+Findings rolling_start(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  for (const auto& run : runs) {
+    const Trajectory path = trajectory_of(run, 0);
+    const double mu = run.input("grains.friction"), g = run.input("box.gravity"), thrown = 0.2;
+    found.rows.push_back({.name = fmt::format("speed once it rolls, friction {:.2g} [m/s]", mu),
+                          .reference = 5.0 / 7 * thrown,
+                          .source = "5/7 v0",
+                          .ours = path.velocity.back().x,
+                          .band = Band::within(0.005)});
+    found.rows.push_back({.name = fmt::format("time until it rolls, friction {:.2g} [ms]", mu),
+                          .reference = 1e3 * 2 * thrown / (7 * mu * g),
+                          .source = "2 v0/(7 mu g)",
+                          .ours = 1e3 * begins_to_roll(path, run.input("grains.diameter") / 2),
+                          .band = Band::within(0.005)});
+  }
+  return found;
+}
+
+Findings free_fall(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  for (const auto& run : runs) {
+    const Trajectory path = trajectory_of(run, 0);
+    found.rows.push_back({.name = fmt::format("speed after {:.3g} ms of free fall [m/s]", 1e3 * path.time.back()),
+                          .reference = run.input("box.gravity") * path.time.back(),
+                          .source = "Newton: g t",
+                          .ours = -path.velocity.back().z,
+                          .band = Band::within(1e-10)});
+  }
+  return found;
+}
+
+}   // namespace
+
+std::vector<Rung> contact_rungs() {
+  constexpr Material glass{"glass", 0.97, 0.092, 0.44}, acetate{"acetate", 0.87, 0.25, 0.43};
+  return {
+      {"contact-free-fall", "a sphere falls in nothing", free_fall, every_case},
+      {"contact-hertz", "two equal elastic spheres meet head-on", hertz, every_case},
+      {"contact-restitution", "two equal spheres meet head-on with the restitution asked for", restitution, every_case},
+      {"contact-foerster-glass", "spheres of soda-lime glass strike a plate at many angles",
+       [=](const auto& runs) { return foerster(runs, glass); }, every_case},
+      {"contact-foerster-acetate", "spheres of cellulose acetate strike a plate at many angles",
+       [=](const auto& runs) { return foerster(runs, acetate); }, every_case},
+      {"contact-incline", "a sphere is let go on an incline", incline, every_case},
+      {"contact-rolling-start", "a sphere is thrown along a plane without spin", rolling_start, every_case},
+  };
+}
+
+}   // namespace bedload

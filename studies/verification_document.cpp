@@ -1,0 +1,97 @@
+// Rows to Markdown.
+#include "studies/verification_document.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/build_info.hpp"
+
+namespace bedload {
+
+namespace {
+
+std::string of_row(const ValidationRow& row, double number, bool with_sign) {
+  const auto text = with_sign ? fmt::format("{:+.2g}", row.band.relative ? 100 * number : number)
+                              : fmt::format("{:.3g}", row.band.relative ? 100 * number : number);
+  return row.band.relative ? text + " %" : text;
+}
+
+std::string_view against(const ValidationRow& row) { return row.against == Against::equations ? "code" : "experiment"; }
+
+std::string table_of(const Findings& findings) {
+  std::string text = "| | reference | ours | deviation | band | | against |\n|---|---|---|---|---|---|---|\n";
+  for (const auto& row : findings.rows)
+    text +=
+        fmt::format("| {} | {:.5g} | {:.5g} | {} | {} | {} | {}: {} |\n", row.name, row.reference, row.ours,
+                    shown_deviation(row), shown_band(row), row.in_band() ? "pass" : "**no**", against(row), row.source);
+  return text;
+}
+
+std::string section_of(const RungResult& rung) {
+  auto text =
+      fmt::format("### {}\n\n{}{} ([study file](../studies/validation/{}.toml), {} case{}, {:.1f} core seconds).\n\n",
+                  rung.study, static_cast<char>(std::toupper(static_cast<unsigned char>(rung.what[0]))),
+                  rung.what.substr(1), rung.study, rung.cases, rung.cases == 1 ? "" : "s", rung.core_seconds);
+  if (!rung.failure.empty()) return text + fmt::format("**Not run to its end**: {}\n\n", rung.failure);
+  text += table_of(rung.findings) + "\n";
+  for (const auto& figure : rung.findings.figures)
+    text += fmt::format("![{}](verification/{}.svg)\n\n{}\n\n", figure.name, figure.name, figure.caption);
+  return text;
+}
+
+constexpr std::string_view preface = R"(# Verification
+
+Written by `bedload validate --write docs`, bedload {} ({}). Do not edit: run the command.
+
+Every row is a run of this program, read from its record or its last state, and held against a reference of another origin:
+*code*, the exact answer of the equations that are solved; or *experiment*, what was measured in nature. The study files are
+in [studies/validation](../studies/validation); `bedload run` takes them like any other. `bedload validate [GROUP]` runs them
+in memory and prints these tables, `--quick` a part of them in three minutes on two cores. {} of {} rows are in band;
+{:.1f} core minutes.
+
+)";
+
+}   // namespace
+
+std::string shown_deviation(const ValidationRow& row) {
+  return std::isfinite(row.deviation()) ? of_row(row, row.deviation(), true) : "none";
+}
+
+std::string shown_band(const ValidationRow& row) {
+  const auto& [below, above, relative] = row.band;
+  if (below == above) return of_row(row, above, false);
+  if (std::isinf(below)) return fmt::format("at most {}", of_row(row, above, true));
+  if (std::isinf(above)) return fmt::format("at least {}", of_row(row, -below, true));
+  return fmt::format("{} to {}", of_row(row, -below, true), of_row(row, above, true));
+}
+
+std::vector<DocumentFile> verification_document(const std::vector<RungResult>& rungs) {
+  std::size_t rows = 0, good = 0;
+  double core_seconds = 0;
+  for (const auto& rung : rungs) {
+    rows += rung.findings.rows.size();
+    good += static_cast<std::size_t>(std::ranges::count_if(rung.findings.rows, &ValidationRow::in_band));
+    core_seconds += rung.core_seconds;
+  }
+  const auto build = build_info();
+  std::vector<DocumentFile> files{{"verification.md", fmt::format(fmt::runtime(preface), build.version, build.commit,
+                                                                  good, rows, core_seconds / 60)}};
+  std::string group, body;
+  for (const auto& rung : rungs) {
+    if (rung.group != group) {
+      group = rung.group;
+      const auto named = std::ranges::find(validation_groups(), group, &ValidationGroup::name);
+      body += fmt::format("## {}\n\n", group);
+      if (named != validation_groups().end()) body += fmt::format("Of {}.\n\n", named->what);
+    }
+    body += section_of(rung);
+    for (const auto& figure : rung.findings.figures)
+      files.push_back({fmt::format("verification/{}.svg", figure.name), figure.svg});
+  }
+  files.front().text += body;
+  return files;
+}
+
+}   // namespace bedload
