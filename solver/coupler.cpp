@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <optional>
 
 #include "solver/coupling/added_mass.hpp"
 #include "solver/coupling/hydrodynamic_forces.hpp"
@@ -14,6 +15,7 @@
 #include "solver/fluid/operators.hpp"
 #include "solver/fluid/pressure_projection.hpp"
 #include "solver/fluid/rows.hpp"
+#include "solver/fluid/turbulence.hpp"
 #include "solver/grains/grain_dynamics.hpp"
 
 namespace bedload {
@@ -105,6 +107,7 @@ struct Coupler::Parts {
         rhs(grid),
         correction(grid),
         kick(grid) {
+    if (scene.terms.turbulence) turbulence.emplace(grid, scene.bed.fluid.viscosity);
     if (scene.terms.added_mass || explicit_forces()) added_exchange = reaction = FaceFields(grid);
   }
 
@@ -115,6 +118,7 @@ struct Coupler::Parts {
   GrainDynamics dynamics;
   ImplicitDrag drag;
   PressureSolver pressure;
+  std::optional<Turbulence> turbulence;   // a function of u^n; only where the scene has it
 
   // Scratch; `stencils` and `before` belong to `positions` and are kept when the state still has them.
   std::vector<Vec3> positions;
@@ -148,6 +152,7 @@ struct Coupler::Parts {
 
   void place_on_grid(const Grains&);
   void accelerate_faces(State&);
+  void book_wall_shear(const FaceFields& velocity);
   void sample_at_grains(State&);
   double choose_step(const State&, double longest);
   double courant_rate(const FaceFields& velocity) const;
@@ -214,6 +219,7 @@ void Coupler::Parts::accelerate_faces(State& state) {
   Stopwatch watch(times.transport);
   FaceFields& u = state.fluid.velocity;
   fill_velocity_ghosts(grid, u, state.search.lid_speed);
+  carried = u;
   fill_centre_ghosts(grid, state.fluid.pressure);
   gradient(grid, state.fluid.pressure, acceleration);
   laplacian(grid, u, laplace);
@@ -227,7 +233,11 @@ void Coupler::Parts::accelerate_faces(State& state) {
       a[n] = -a[n] + nu * lap[n] + g;
       f[n] += eps[n] * v[n];
     });
-  carried = u;
+  }
+  if (turbulence) {   // a bed is as rough as its grains are large
+    const double z_b = state.search.bed_height;
+    turbulence->find(u, state.search.lid_speed, z_b, z_b > 0 ? scene.bed.grains.diameter : scene.bottom_roughness);
+    turbulence->add_force(u, 1, acceleration);
   }
   clear_walls(grid, acceleration);
   fill_face_ghosts(grid, flux);
@@ -237,11 +247,20 @@ void Coupler::Parts::accelerate_faces(State& state) {
     for (std::size_t n = row; n < row + length; ++n) largest = std::max(largest, std::abs(rhs[n]));
   });
   health.divergence_left = largest;
-  const WallShear shear = wall_shear(grid, u, nu);
+  book_wall_shear(u);
   const double rho = scene.bed.fluid.density;
-  books.on_bottom = rho * shear.bottom, books.on_lid = rho * shear.top;
   const Vec3 box = grid.length();
   books.driving = rho * box.x * box.y * box.z * drive(state);
+}
+
+/// What bottom and lid take of a flow, or of its change, through viscosity and turbulence.
+void Coupler::Parts::book_wall_shear(const FaceFields& velocity) {
+  const double rho = scene.bed.fluid.density;
+  const auto add = [&](const WallShear& shear) {
+    books.on_bottom += rho * shear.bottom, books.on_lid += rho * shear.top;
+  };
+  add(wall_shear(grid, velocity, scene.bed.fluid.viscosity));
+  if (turbulence) add(turbulence->wall_shear(velocity));
 }
 
 void Coupler::Parts::sample_at_grains(State& state) {
@@ -372,20 +391,19 @@ void Coupler::Parts::react_on_fluid(const State& state, double dt) {
 /// The one implicit solve of the step for all that fluid and grains exchange; leaves the grains' constant push.
 void Coupler::Parts::solve_drag(State& state, double dt) {
   Stopwatch watch(times.drag);
-  const double rho = scene.bed.fluid.density, nu = scene.bed.fluid.viscosity;
+  const double nu = scene.bed.fluid.viscosity;
   predict_grains(state, dt);
   find_impulse(state, dt);
   const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
-  const bool implicit = nu * dt > explicit_viscosity_limit * shortest_edge * shortest_edge;
-  health.drag_iterations =
-      drag.solve(grid, {stencils, exchange, relaxation, ballistic, flow.velocity, implicit ? nu * dt : 0}, before.face,
-                 impulse, state.fluid.velocity, flow_velocity);
+  const double largest = nu + (turbulence ? turbulence->largest() : 0);
+  const bool implicit = largest * dt > explicit_viscosity_limit * shortest_edge * shortest_edge;
+  DragProblem problem{stencils, exchange, relaxation, ballistic, flow.velocity};
+  if (implicit) problem.implicit_viscosity = nu * dt, problem.turbulence = turbulence ? &*turbulence : nullptr;
+  problem.step = dt;
+  health.drag_iterations = drag.solve(grid, problem, before.face, impulse, state.fluid.velocity, flow_velocity);
   health.converged = health.drag_iterations < ImplicitDrag::most_iterations;
   book_exchange(state, dt);
-  if (implicit) {
-    const WallShear more = wall_shear(grid, drag.change(), nu);
-    books.on_bottom += rho * more.bottom, books.on_lid += rho * more.top;
-  }
+  if (implicit) book_wall_shear(drag.change());
 }
 
 /// The forces that the solve has found, into the grains' push and the books.

@@ -55,6 +55,12 @@ double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, c
       b_max = std::max(b_max, (b[n] + viscous) / eps[n]);   // what is left of r is stiff in either
     });
   }
+  if (!problem.turbulence) return b_max;
+  problem.turbulence->add_diagonal(problem.step, diagonal_);
+  for (int c = 0; c < 3; ++c) {
+    const double *d = diagonal_.component(c), *eps = void_fraction.component(c);
+    for_each_unknown_face(g, c, [&](std::size_t n) { b_max = std::max(b_max, d[n] / eps[n] - 1); });
+  }
   return b_max;
 }
 
@@ -74,6 +80,7 @@ void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, con
   if (problem.implicit_viscosity > 0) {
     fill_velocity_ghosts(g, x, 0);
     laplacian(g, x, laplacian_);
+    if (problem.turbulence) problem.turbulence->add_force(x, -problem.step, out);
   }
   for (int c = 0; c < 3; ++c) {
     double* y = out.component(c);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/coupling/void_fraction.hpp"
+#include "solver/fluid/turbulence.hpp"
 
 namespace bedload {
 
@@ -15,12 +16,14 @@ struct DragProblem {
   std::span<const Stencil> stencils;
   std::span<const Vec3> exchange, relaxation;
   std::span<const Vec3> ballistic;
-  std::span<const Vec3> flow_velocity;   // u^n at the grains [m/s]
-  double implicit_viscosity = 0;         // T nu [m2], or 0 where viscosity is explicit
+  std::span<const Vec3> flow_velocity;      // u^n at the grains [m/s]
+  double implicit_viscosity = 0;            // T nu [m2], or 0 where viscosity is explicit
+  const Turbulence* turbulence = nullptr;   // whose stress is implicit too, over `step`; nullptr if none is
+  double step = 0;                          // T [s]
 };
 
 /// Solves, for the change of velocity since u^n,
-///   (eps_f + B_f) u*_f - sum_p w_pf K [a/(1+a)] (sum_g w_pg u*_g) - T nu lap(u* - u^n) = eps_f u^n_f + T b_f + sum_p w_pf K vt_p/(1+a)
+///   (eps_f + B_f) u*_f - sum_p w_pf K [a/(1+a)] (sum_g w_pg u*_g) - T [nu lap(u* - u^n) + div of its eddy stress] = eps_f u^n_f + T b_f + sum_p w_pf K vt_p/(1+a)
 /// by conjugate gradients (symmetric positive definite, preconditioned by eps + B) to |r| < 0.01/(1 + b_max) |r_0|, b_max the largest of (B + viscous diagonal)/eps.
 class ImplicitDrag {
  public:
