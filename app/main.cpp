@@ -154,8 +154,9 @@ void CommandLine::validate_commands() {
                          validate_.form = study_.form;
                          return validate_command(validate_);
                        });
-  validate->add_option("GROUP", validate_.groups, "contact, settling, bed, fluid, onset (default: all of these)");
-  validate->add_flag("--quick", validate_.quick, "a part of them, at most 3 minutes on 2 cores");
+  validate->add_option("GROUP", validate_.groups,
+                       "contact, settling, bed, fluid, onset (default: all of these), or extremes");
+  validate->add_flag("--quick,--short", validate_.quick, "a part of them: at most 3 minutes on 2 cores");
   validate->add_flag("--list", validate_.list, "which studies there are; run nothing");
   validate->add_option("--cores", validate_.cores, "cases side by side (default: all cores)")->check(check_workers);
   validate->add_option("--write", validate_.write, "write verification.md and its figures into this folder");

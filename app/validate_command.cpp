@@ -9,6 +9,7 @@
 #include "app/tables.hpp"
 #include "base/durable_file.hpp"
 #include "base/log.hpp"
+#include "studies/extremes.hpp"
 #include "studies/validation.hpp"
 #include "studies/verification_document.hpp"
 
@@ -87,9 +88,29 @@ void print_summary(const std::vector<RungResult>& rungs, double wall) {
   log_note(fmt::format("{} of {} rows in band; {:.0f} s, {:.0f} core seconds", good, rows, wall, core_seconds));
 }
 
+/// The matrix of the extremes: scenes that must end well, or be refused, with their books in order.
+int validate_extremes(const ValidateOptions& options) {
+  const auto rows = run_extremes({.quick = options.quick,
+                                  .cores = options.cores.value_or(0),
+                                  .progress = [](const std::string& line) { log_note(line); }});
+  fmt::print("{}", printed(extremes_table(rows), options.form));
+  const auto wrong = std::ranges::count_if(rows, [](const ExtremeRow& row) { return !row.wrong().empty(); });
+  log_note(fmt::format("{} of {} scenes as they must be", std::ssize(rows) - wrong, rows.size()));
+  return wrong == 0 ? 0 : static_cast<int>(ErrorKind::some_failed);
+}
+
+/// True if the extremes are asked for: alone, since they are no rows of the ladder.
+bool wants_extremes(const ValidateOptions& options) {
+  if (std::ranges::find(options.groups, "extremes") == options.groups.end()) return false;
+  if (options.groups.size() == 1 && !options.list && !options.write) return true;
+  throw Error(ErrorKind::usage, "the extremes are run by themselves, and neither listed nor written",
+              "bedload validate extremes [--quick] [--json]");
+}
+
 }   // namespace
 
 int validate_command(const ValidateOptions& options) {
+  if (wants_extremes(options)) return validate_extremes(options);
   const auto groups = groups_named(options.groups);
   if (options.list) return list_rungs(groups, options);
   const auto began = std::chrono::steady_clock::now();
