@@ -31,7 +31,7 @@ struct BedSource {
   enum class Kind { poured, lattice, suspension, file, none };
   Kind kind = Kind::none;
   std::uint64_t count = 0;   // grains; with kind file: rows
-  std::string csv;           // kind file: the bytes of the table x,y,z,diameter,density,fixed
+  std::string csv;           // kind file: the bytes of the table (grain_table.hpp)
   std::uint64_t seed = 1;    // packing
   bool fixed = false;        // kind suspension: the grains never move
 };

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace bedload {
 namespace {
 
 constexpr std::string_view header = "x,y,z,diameter,density,fixed";
+constexpr std::string_view moving_header = "x,y,z,diameter,density,fixed,vx,vy,vz,wx,wy,wz";
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";   // spreadsheets write it before UTF-8
 constexpr double tolerated_overlap = 0.01;                     // of the smaller diameter
 
@@ -60,16 +62,19 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-std::optional<std::array<double, 6>> six_numbers(std::string_view line, std::size_t row, Complaints& complaints) {
-  const auto commas = std::ranges::count(line, ',');
-  if (commas != 5) {
-    complaints.add(fmt::format("row {}: {} columns where {} are due", row, commas + 1, header));
+/// Values of a row: six, or twelve where the table has velocities and spins; the last six are zero where it has not.
+using Values = std::array<double, 12>;
+
+std::optional<Values> numbers(std::string_view line, std::string_view columns, std::size_t row,
+                              Complaints& complaints) {
+  const auto commas = std::ranges::count(line, ','), due = std::ranges::count(columns, ',');
+  if (commas != due) {
+    complaints.add(fmt::format("row {}: {} columns where {} are due", row, commas + 1, columns));
     return std::nullopt;
   }
-  std::array<double, 6> values{};
-  std::string_view names = header;
-  for (double& value : values) {
-    const std::string_view name = take_until(names, ','), text = take_until(line, ',');
+  Values values{};
+  for (double& value : std::span(values).first(static_cast<std::size_t>(due + 1))) {
+    const std::string_view name = take_until(columns, ','), text = take_until(line, ',');
     const auto read = number(text);
     if (!read) {
       complaints.add(fmt::format("row {}: {} = \"{}\" is not a number", row, name, text));
@@ -80,11 +85,13 @@ std::optional<std::array<double, 6>> six_numbers(std::string_view line, std::siz
   return values;
 }
 
-void check_row(const BedScene& scene, const std::array<double, 6>& v, std::size_t row, Complaints& complaints) {
-  const auto [x, y, z, diameter, density, fixed] = v;
+void check_row(const BedScene& scene, const Values& v, std::size_t row, Complaints& complaints) {
+  const auto [x, y, z, diameter, density, fixed, vx, vy, vz, wx, wy, wz] = v;
   if (!(diameter > 0)) complaints.add(fmt::format("row {}: diameter = {} m is not positive", row, diameter));
   if (!(density > 0)) complaints.add(fmt::format("row {}: density = {} kg/m3 is not positive", row, density));
   if (fixed != 0 && fixed != 1) complaints.add(fmt::format("row {}: fixed = {} is neither 0 nor 1", row, fixed));
+  if (fixed == 1 && (norm2({vx, vy, vz}) > 0 || norm2({wx, wy, wz}) > 0))
+    complaints.add(fmt::format("row {}: a fixed grain has a velocity or a spin", row));
   const PeriodicBox box(scene);
   for (int c = 0; c < 3; ++c) {
     // A fixed grain may stand half in a wall: rough bottoms are made so.
@@ -123,10 +130,11 @@ Grains read_grain_table(const BedScene& scene) {
   std::string_view rest = scene.source.csv;
   if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
   Complaints complaints;
-  const std::string_view found = take_until(rest, '\n');
-  if (found != header)
-    throw Error(ErrorKind::study_invalid, fmt::format("row 1: the header is \"{}\", not \"{}\"", found, header),
-                "the first line names the columns, in this order; all values are in SI units");
+  const std::string_view columns = take_until(rest, '\n');
+  if (columns != header && columns != moving_header)
+    throw Error(
+        ErrorKind::study_invalid, fmt::format("row 1: the header is \"{}\", not \"{}\"", columns, header),
+        "the first line names the columns, in this order; vx,vy,vz,wx,wy,wz may follow; all values are in SI units");
   if (rest.find_first_not_of(" \t\r\n") == rest.npos)
     throw Error(ErrorKind::study_invalid, "the table has a header and no grains",
                 "add rows; bed.source = \"none\" is a box without grains");
@@ -135,18 +143,20 @@ Grains read_grain_table(const BedScene& scene) {
   for (std::size_t row = 2; !rest.empty(); ++row) {
     const std::string_view line = take_until(rest, '\n');
     if (line.empty()) continue;
-    const auto values = six_numbers(line, row, complaints);
+    const auto values = numbers(line, columns, row, complaints);
     if (!values) continue;
     check_row(scene, *values, row, complaints);
-    const auto [x, y, z, diameter, density, fixed] = *values;
+    const auto [x, y, z, diameter, density, fixed, vx, vy, vz, wx, wy, wz] = *values;
     grains.position.push_back(PeriodicBox(scene).wrapped({x, y, z}));
+    grains.velocity.push_back({vx, vy, vz});
+    grains.spin.push_back({wx, wy, wz});
     grains.diameter.push_back(diameter);
     grains.density.push_back(density);
     grains.fixed.push_back(fixed == 1);
     row_of.push_back(row);
   }
-  complaints.raise("columns are x,y,z,diameter,density,fixed in SI units");
-  grains.resize(grains.size());   // velocity, spin and the rest: zero
+  complaints.raise(fmt::format("columns are {} in SI units", columns));
+  grains.resize(grains.size());   // the rest: zero
   check_overlaps(scene, grains, row_of, complaints);
   complaints.raise("settle the bed before it is written, or thin it out");
   return grains;

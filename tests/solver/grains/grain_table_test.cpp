@@ -39,6 +39,16 @@ TEST(GrainTable, ReadsGrainsInOrderAtRest) {
   EXPECT_EQ(grains.velocity[1], Vec3{});
 }
 
+TEST(GrainTable, ReadsVelocityAndSpinWhereTheHeaderHasThem) {
+  const std::string moving = "x,y,z,diameter,density,fixed,vx,vy,vz,wx,wy,wz\n";
+  const Grains grains = place_grains(with_table(moving + "0.01,0.02,0.03,1e-3,2500,0,1,-2,3,40,50,-60\n"));
+  EXPECT_EQ(grains.velocity.at(0), (Vec3{1, -2, 3}));
+  EXPECT_EQ(grains.spin.at(0), (Vec3{40, 50, -60}));
+  EXPECT_NE(refusal(moving + "0.01,0.02,0.03,1e-3,2500,0\n").find("row 2: 6 columns"), std::string::npos);
+  EXPECT_NE(refusal(moving + "0.01,0.02,0.03,1e-3,2500,1,1,0,0,0,0,0\n").find("a fixed grain has a velocity"),
+            std::string::npos);
+}
+
 TEST(GrainTable, RefusesATableWithoutGrains) {
   EXPECT_EQ(refusal(header), "the table has a header and no grains");
   EXPECT_EQ(refusal(header + "\r\n\n"), "the table has a header and no grains");
