@@ -82,7 +82,7 @@ void sample_flow(const StaggeredGrid& grid, const Grains& grains, std::span<cons
   const std::size_t n = grains.size();
   flow.velocity.resize(n), flow.acceleration.resize(n), flow.void_fraction.resize(n);
   flow.drag.assign(n, {}), flow.force.assign(n, {});
-  extend_samples(grid, velocity), extend_samples(grid, acceleration), extend_samples(grid, void_fraction);
+  if (n > 0) extend_samples(grid, velocity), extend_samples(grid, acceleration), extend_samples(grid, void_fraction);
   const Strides stride(grid);
   for (std::size_t p = 0; p < n; ++p) {
     flow.velocity[p] = sample(stencils[p], stride, velocity);

@@ -41,7 +41,7 @@ double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, c
     deposit(problem.stencils[p], stride,
             {k.x / (1 + a.x) * followed.x, k.y / (1 + a.y) * followed.y, k.z / (1 + a.z) * followed.z}, residual_);
   }
-  fold_deposits(g, exchange_), fold_deposits(g, residual_);
+  if (!problem.stencils.empty()) fold_deposits(g, exchange_), fold_deposits(g, residual_);
   const Vec3 h = g.h;
   const double viscous = problem.implicit_viscosity * 2 * (1 / (h.x * h.x) + 1 / (h.y * h.y) + 1 / (h.z * h.z));
   double b_max = 0;
@@ -67,7 +67,8 @@ double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, c
 void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction,
                          FaceFields& x, FaceFields& out) {
   clear(out);
-  extend_samples(g, x);
+  const bool any_grain = !problem.stencils.empty();
+  if (any_grain) extend_samples(g, x);
   const Strides stride(g);
   for (std::size_t p = 0; p < problem.stencils.size(); ++p) {
     const Vec3 a = problem.relaxation[p], k = problem.exchange[p];
@@ -76,7 +77,7 @@ void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, con
     const Vec3 share{-k.x * a.x / (1 + a.x), -k.y * a.y / (1 + a.y), -k.z * a.z / (1 + a.z)};
     deposit(s, stride, scaled(share, sample(s, stride, x)), out);
   }
-  fold_deposits(g, out);
+  if (any_grain) fold_deposits(g, out);
   if (problem.implicit_viscosity > 0) {
     fill_velocity_ghosts(g, x, 0);
     laplacian(g, x, laplacian_);
@@ -119,7 +120,7 @@ int ImplicitDrag::solve(const StaggeredGrid& g, const DragProblem& problem, cons
     ++iterations;
   }
   each([&](int c, std::size_t n) { velocity.component(c)[n] += change_.component(c)[n]; });
-  extend_samples(g, velocity);
+  if (!problem.stencils.empty()) extend_samples(g, velocity);
   for (std::size_t p = 0; p < problem.stencils.size(); ++p)
     flow_velocity[p] = sample(problem.stencils[p], Strides(g), velocity);
   each([&](int c, std::size_t n) {

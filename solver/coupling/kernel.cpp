@@ -20,8 +20,8 @@ template <class Visit>
 void for_each_image(const StaggeredGrid& g, int place, std::array<int, 3> order, Visit&& visit) {
   constexpr int ghosts = StaggeredGrid::ghosts;
   for (const int c : order) {
-    const int d = (c + 1) % 3, e = (c + 2) % 3;
-    if (!g.periodic(c) && place == c) continue;   // faces on the walls are their own; grains reach none beyond
+    const int d = c == 0 ? 1 : 0, e = c == 2 ? 1 : 2;   // the inner loop along the rows
+    if (!g.periodic(c) && place == c) continue;         // faces on the walls are their own; grains reach none beyond
     for (const Image& image : images(g, c)) {
       const std::ptrdiff_t from = (image.ghost + ghosts) * g.stride(c), to = (image.home + ghosts) * g.stride(c);
       for (int p = 0; p < g.cells[d] + 2 * ghosts; ++p)

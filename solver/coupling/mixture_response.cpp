@@ -38,7 +38,7 @@ void find_mixture_response(const StaggeredGrid& g, const Grains& grains, std::sp
     deposit_mobile<on_z_faces>(stencils[p], stride, k.z, volume, mass, m);
   }
   for (FaceFields* f : {&m.locked_exchange, &m.mobile_exchange, &m.mobile_fraction, &m.mobile_inertia})
-    fold_deposits(g, *f);
+    if (grains.size() > 0) fold_deposits(g, *f);
   for (int c = 0; c < 3; ++c) {
     double *cf = m.fluid.component(c), *cp = m.grains.component(c), *both = m.coefficient.component(c);
     const double *bl = m.locked_exchange.component(c), *bm = m.mobile_exchange.component(c),

@@ -76,7 +76,7 @@ void deposit_void_fraction(const StaggeredGrid& grid, const Grains& grains, std:
     deposit<on_cells>(stencils[p], stride, share, eps.centre.data());
     deposit(stencils[p], stride, {share, share, share}, eps.face);
   }
-  fold_deposits(grid, eps.centre), fold_deposits(grid, eps.face);
+  if (grains.size() > 0) fold_deposits(grid, eps.centre), fold_deposits(grid, eps.face);
   for (double& e : eps.centre.values) e += 1;
   for (int c = 0; c < 3; ++c)
     for (double *e = eps.face.component(c), *end = e + grid.padded_size(); e != end; ++e) *e += 1;
@@ -90,7 +90,7 @@ void deposit_solid_flux(const StaggeredGrid& grid, const Grains& grains, std::sp
   for (std::size_t p = 0; p < grains.size(); ++p)
     if (!grains.fixed[p])
       deposit(stencils[p], stride, sphere_volume(grains.diameter[p]) * per_cell * grains.velocity[p], flux);
-  fold_deposits(grid, flux);
+  if (grains.size() > 0) fold_deposits(grid, flux);
   clear_walls(grid, flux);
 }
 
@@ -110,7 +110,7 @@ void deposit_swept_flux(const StaggeredGrid& grid, const Grains& grains, std::sp
     sweep_horizontal(s[1], stride.y, s[0], stride.x, s[2], amount * grid.h.y, flux.component(1) + corner);
     sweep_vertical(s, stride, amount * grid.h.z, flux.component(2) + corner);
   }
-  fold_deposits(grid, flux);
+  if (grains.size() > 0) fold_deposits(grid, flux);
   clear_walls(grid, flux);
 }
 
