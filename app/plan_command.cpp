@@ -69,19 +69,34 @@ void print_models(const Plan& plan) {
   for (const auto& [decisions, cases] : groups) {
     fmt::print("\nModels of {}{}:\n{}", cases.front()->label,
                cases.size() > 1 ? fmt::format(" and {} more", cases.size() - 1) : "",
-               printed(scene_models(cases.front()->scene), Form::table));
+               printed_with_text(scene_models(cases.front()->scene)));
     fmt::print("\n{}", printed(scene_numbers(cases.front()->scene), Form::table));
   }
 }
+
+void print_warning(const std::string& warning) { fmt::print("\n{}\n", wrapped("warning: " + warning, 0)); }
 
 void print_warnings(const Plan& plan) {
   std::vector<std::string> said;
   for (const auto& c : plan.cases)
     for (const auto& warning : warnings_of(c.one.scene)) {
       if (std::ranges::find(said, warning) != said.end()) continue;
-      fmt::print("\nwarning: {}: {}\n", c.one.label, warning);
+      print_warning(fmt::format("{}: {}", c.one.label, warning));
       said.push_back(warning);
     }
+}
+
+/// What plan and explain say of a scene, for programs.
+void add_scene(nlohmann::ordered_json& object, const Scene& scene) {
+  object["models"] = nlohmann::ordered_json::parse(printed(scene_models(scene), Form::json));
+  object["numbers"] = nlohmann::ordered_json::parse(printed(scene_numbers(scene), Form::json));
+  object["warnings"] = warnings_of(scene);
+}
+
+void print_plan_as_json(const Plan& plan) {
+  auto cases = nlohmann::ordered_json::parse(printed(case_rows(plan), Form::json));
+  for (std::size_t n = 0; n < plan.cases.size(); ++n) add_scene(cases[n], plan.cases[n].one.scene);
+  fmt::print("{}\n", cases.dump(2));
 }
 
 void print_summary(const Study& study, const Plan& plan, const fs::path& results, int cores) {
@@ -118,19 +133,15 @@ void explain_one(const CaseEntry& entry, const std::vector<Case>& cases, const f
   const auto one = inputs_of(entry, cases, results);
   fmt::print("{}  {}  ({})\n", entry.label, short_id(entry.id), (results / entry.directory).string());
   for (const auto& line : story_of(entry, results / entry.directory)) fmt::print("  {}\n", line);
-  fmt::print("\n{}\n{}", printed(scene_models(one.scene), Form::table), printed(scene_numbers(one.scene), Form::table));
-  for (const auto& warning : warnings_of(one.scene)) fmt::print("\nwarning: {}\n", warning);
+  fmt::print("\n{}\n{}", printed_with_text(scene_models(one.scene)), printed(scene_numbers(one.scene), Form::table));
+  for (const auto& warning : warnings_of(one.scene)) print_warning(warning);
 }
 
 void explain_as_json(const CaseEntry& entry, const std::vector<Case>& cases, const fs::path& results) {
   const auto one = inputs_of(entry, cases, results);
-  const nlohmann::ordered_json json = {
-      {"case", entry.id},
-      {"label", entry.label},
-      {"story", story_of(entry, results / entry.directory)},
-      {"models", nlohmann::ordered_json::parse(printed(scene_models(one.scene), Form::json))},
-      {"numbers", nlohmann::ordered_json::parse(printed(scene_numbers(one.scene), Form::json))},
-      {"warnings", warnings_of(one.scene)}};
+  nlohmann::ordered_json json = {
+      {"case", entry.id}, {"label", entry.label}, {"story", story_of(entry, results / entry.directory)}};
+  add_scene(json, one.scene);
   fmt::print("{}\n", json.dump(2));
 }
 
@@ -151,10 +162,8 @@ int plan_command(const StudyOptions& options) {
   const auto place = find_study(options.study, options.out);
   const auto study = read_study(place.file);
   const auto plan = make_plan(unfold(study), known_cases(place.directory), place.directory);
-  if (options.form != Form::table) {
-    fmt::print("{}", printed(case_rows(plan), options.form));
-    return 0;
-  }
+  if (options.form == Form::json) return print_plan_as_json(plan), 0;
+  if (options.form == Form::csv) return fmt::print("{}", printed(case_rows(plan), Form::csv)), 0;
   const int cores =
       study.run.cores > 0 ? study.run.cores : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   print_summary(study, plan, place.directory, cores);

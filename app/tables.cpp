@@ -57,25 +57,54 @@ std::string as_json(const Rows& rows) {
   return array.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string as_table(const Rows& rows) {
+/// Heading and rows as text, each column but the last padded to one width.
+std::vector<std::vector<std::string>> aligned(const Rows& rows) {
   std::vector<std::vector<std::string>> lines{rows.columns};
   for (const auto& row : rows.rows) {
     auto& line = lines.emplace_back();
     for (const auto& value : row) line.push_back(for_people(value));
   }
-  std::vector<std::size_t> widths(rows.columns.size());
-  for (const auto& line : lines)
-    for (std::size_t c = 0; c < line.size(); ++c) widths[c] = std::max(widths[c], line[c].size());
+  for (std::size_t c = 0; c + 1 < rows.columns.size(); ++c) {
+    std::size_t width = 0;
+    for (const auto& line : lines) width = std::max(width, line[c].size());
+    for (auto& line : lines) line[c].resize(width, ' ');
+  }
+  return lines;
+}
+
+std::string as_table(const Rows& rows) {
   std::string text;
-  for (const auto& line : lines) {
-    std::string one;
-    for (std::size_t c = 0; c < line.size(); ++c) one += fmt::format("{:<{}}  ", line[c], widths[c]);
+  for (const auto& line : aligned(rows)) {
+    const auto one = fmt::format("{}", fmt::join(line, "  "));
     text += one.substr(0, one.find_last_not_of(' ') + 1) + "\n";
   }
   return text;
 }
 
 }   // namespace
+
+std::string wrapped(const std::string& text, std::size_t indent) {
+  const std::size_t room = page_width - std::min(indent, page_width / 2);
+  std::string out;
+  std::size_t from = 0;
+  while (text.size() - from > room) {
+    auto space = text.rfind(' ', from + room);
+    if (space == text.npos || space <= from) space = text.find(' ', from);   // a word longer than a line
+    if (space == text.npos) break;
+    out += text.substr(from, space - from) + "\n" + std::string(indent, ' ');
+    from = space + 1;
+  }
+  return out + text.substr(from);
+}
+
+std::string printed_with_text(const Rows& rows) {
+  std::string text;
+  for (const auto& line : aligned(rows)) {
+    const auto fixed = fmt::format("{}  ", fmt::join(line.begin(), line.end() - 1, "  "));
+    text += fixed + wrapped(line.back(), fixed.size()) + "\n";
+  }
+  return text;
+}
 
 std::string printed(const Rows& rows, Form form) {
   return form == Form::csv ? as_csv(rows) : form == Form::json ? as_json(rows) : as_table(rows);

@@ -9,4 +9,13 @@ namespace bedload {
 /// Aligned columns; CSV (RFC 4180); or a JSON array of objects. Numbers in CSV and JSON read back to the same bits.
 std::string printed(const Rows&, Form);
 
+inline constexpr std::size_t page_width = 100;   // of what people read
+
+/// Lines of at most page_width letters, broken between words. The first has `indent` letters before it already, the others
+/// begin with as many spaces.
+std::string wrapped(const std::string& text, std::size_t indent);
+
+/// A table for people whose last column is text: that is wrapped.
+std::string printed_with_text(const Rows&);
+
 }   // namespace bedload

@@ -1,177 +1,289 @@
-// The rules: term by term, when it matters, and the ratio that says so.
+// The rules: term by term, when it matters, and the ratio that says so (docs/physics.md, section 2).
 #include "solver/required_models.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
-#include "solver/bed/flow_ramp.hpp"
-#include "solver/bed/incipient_motion.hpp"
 #include "solver/coupling/drag_laws.hpp"
-#include "solver/dimensionless.hpp"
-#include "solver/expected_bed.hpp"
+#include "solver/coupling/lateral_forces.hpp"
+#include "solver/grains/grains.hpp"
+#include "solver/scene_range.hpp"
 
 namespace bedload {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double added_mass_coefficient = 0.5;   // of a sphere
-constexpr double couette_transition = 1300;      // U h/nu beyond which a Couette flow may stay turbulent
-constexpr double channel_transition = 1500;      // of the mean speed, between plates
-constexpr double rough_transition = 5;           // Re* up to which the bed is hydraulically smooth
+constexpr double two_way_loading = 1e-3;   // phi s: mass of grains per mass of fluid
+constexpr double unsteady_share = 0.02;    // of the submerged weight, by accelerating fluid
+constexpr double light_grain = 5;          // s below which a grain carries fluid along
+constexpr double lone_added_mass = 0.5;    // of the displaced fluid
+constexpr double slow_shear = 0.5;         // Re_g
+constexpr double share_of_weight = 0.05;   // of a lateral force, or of a torque per radius
+constexpr double spinning = 0.1;           // omega d/(2 w)
+constexpr double inertial = 1;             // Re of a grain below which spin deflects nothing
+constexpr double dry_impact = 2000;        // impact Stokes number
+constexpr double near_wall = 0.05;         // a/z
+constexpr double dilute = 0.05;            // packing of others up to which walls count
+constexpr double small_grain = 0.02;       // d/h
+constexpr double dense = 0.3;              // packing of others from which a grain is none of the lone ones
+constexpr double loss_per_stokes = 35;     // ln of the restitution a film takes is 35/St
 
-bool sheared(const Scene& scene) {
-  const bool flows = scene.drive.kind == FlowRamp::Kind::lid || scene.drive.kind == FlowRamp::Kind::pressure;
-  return flows && scene.bed.sides[2] == Side::wall;
-}
-bool has_grains(const Scene& scene) { return scene.bed.source.kind != BedSource::Kind::none; }
+/// What every rule reads.
+struct Facts {
+  const Scene& scene;
+  GrainCensus grains;
+  SceneNumbers n;
+  double diameter() const { return scene.bed.grains.diameter; }
+  double edge() const { return std::cbrt(scene.grid.cell_volume()); }
+  bool sheared() const { return grains.any && !std::isnan(n.shear_rate); }
+  bool steep() const { return norm2(scene.bed.gravity) > 0; }
+};
 
-/// What imposes a Shields number on the expected bed, whatever the levels of the ramp count.
-double flow_speed_at(const Scene& scene, double shields, double gap) {
-  const auto& bed = scene.bed;
-  const double stress = stress_of_shields(shields, bed.fluid.density, bed.grains.density / bed.fluid.density,
-                                          norm(bed.gravity), bed.grains.diameter);
-  const double shear = stress / (bed.fluid.density * bed.fluid.viscosity);   // at the bed
-  if (scene.drive.kind == FlowRamp::Kind::lid) return shear * gap;
-  return bed.top == Top::free_slip ? shear * gap / 3 : shear * gap / 6;   // mean of a film, of a channel
-}
+std::string_view side(bool above) { return above ? ">" : "<="; }
 
-void flow_numbers(const Scene& scene, SceneNumbers& n) {
-  const auto& bed = scene.bed;
-  const double height = n.bed_depth * bed.grains.diameter;
-  const auto levels = scene.drive.levels.size();
-  n.lowest_shields = imposed_flow(scene, 0, height).shields;
-  n.highest_shields = imposed_flow(scene, levels - 1, height).shields;
-  n.shields = scene.drive.quantity == FlowRamp::Quantity::shields ? quoted_shields : n.highest_shields;
-  n.friction_reynolds = friction_reynolds_number(n.shields, n.galileo);
-  n.shear_reynolds = shear_reynolds_number(n.shields, n.galileo);
-  n.flow_speed = flow_speed_at(scene, n.shields, n.gap);
-  n.gap_reynolds = reynolds_number(n.flow_speed, n.gap, bed.fluid.viscosity);
-  const double shear = n.shear_reynolds * bed.fluid.viscosity / (bed.grains.diameter * bed.grains.diameter);
-  n.impact_stokes = impact_stokes_number(n.density_ratio, bed.grains.diameter, 0.2 * shear * bed.grains.diameter,
-                                         bed.fluid.viscosity);
-}
-
-ModelChoice drag(const Scene& scene, const SceneNumbers& n) {
-  const double loading = n.solid_fraction * n.density_ratio;
-  return {"drag", scene.terms.drag, has_grains(scene), loading,
-          fmt::format("{} drag, two-way: mass loading {:.3g} > 0.001", name_of(scene.drag), loading)};
-}
-
-ModelChoice buoyancy(const Scene& scene, const SceneNumbers& n) {
-  return {"buoyancy", scene.terms.buoyancy, has_grains(scene), 1 / n.density_ratio,
-          fmt::format("carries {:.3g} of a grain's weight (1/s)", 1 / n.density_ratio)};
-}
-
-ModelChoice pressure_gradient(const Scene& scene, const SceneNumbers& n) {
-  const bool wanted = has_grains(scene) && n.density_ratio < 5;
-  const auto why = fmt::format(
-      "s = {:.3g} {} 5{}", n.density_ratio,
-      wanted ? "<" : ">=", scene.terms.model_b() ? "; off means Model B, good for steady, nearly uniform flow" : "");
-  return {"pressure_gradient", scene.terms.pressure_gradient, wanted, n.density_ratio, why};
-}
-
-ModelChoice viscous_stress(const Scene& scene, const SceneNumbers& n) {
-  const bool wanted = has_grains(scene) && n.density_ratio < 5;
-  return {"viscous_stress", scene.terms.viscous_stress, wanted, n.density_ratio,
-          scene.terms.model_b() ? "off together with pressure_gradient (Model B)"
-                                : "the other half of Model A beside pressure_gradient"};
-}
-
-ModelChoice added_mass(const SceneNumbers& n) {
-  const double share = added_mass_coefficient / (n.density_ratio + added_mass_coefficient);
-  return {"added_mass", false, n.density_ratio < 5, share,
-          fmt::format("{:.2g} of the inertia of an accelerating grain; not in this version; steady drag and thus onset "
-                      "feel it little",
-                      share)};
-}
-
-ModelChoice shear_lift(const SceneNumbers& n) {
-  const double ratio = 1.10 * n.shields * n.shear_reynolds;
-  return {"shear_lift", false, n.shear_reynolds > 0.5 && ratio > 0.05, ratio,
-          fmt::format("lift per weight 1.10 theta Re_g = {:.2g} (matters above 0.05); not in this version", ratio)};
-}
-
-ModelChoice lubrication(const SceneNumbers& n) {
-  const double ratio = n.impact_stokes > 0 ? 1 - std::exp(-35 / n.impact_stokes) : 1;
-  return {"lubrication", false, n.impact_stokes < 2000, ratio,
-          fmt::format("impact Stokes number {:.2g}: the film takes {:.2g} of a rebound; not in this version",
-                      n.impact_stokes, ratio)};
-}
-
-ModelChoice viscous_torque(const SceneNumbers& n) {
-  const double ratio = 6 * n.shields;
-  return {"viscous_torque", false, ratio > 0.05, ratio,
-          fmt::format("torque per weight and radius 6 theta = {:.2g} (matters above 0.05); not in this version; "
-                      "theta_c comes out too high without it",
-                      ratio)};
-}
-
-bool turbulent(const Scene& scene, const SceneNumbers& n) {
-  const double limit = scene.drive.kind == FlowRamp::Kind::lid ? couette_transition : channel_transition;
-  return n.friction_reynolds > rough_transition && n.gap_reynolds > limit;
-}
-
-ModelChoice turbulence(const Scene& scene, const SceneNumbers& n) {
-  const bool lid = scene.drive.kind == FlowRamp::Kind::lid;
-  const double limit = lid ? couette_transition : channel_transition;
+ModelChoice drag(const Facts& f) {
+  const double loading = f.grains.any ? f.n.solid_fraction * f.n.density_ratio : 0;
+  const auto why =
+      loading > two_way_loading
+          ? fmt::format("mass loading phi s = {:.3g} > {:g}: both ways", loading, two_way_loading)
+          : fmt::format("mass loading phi s = {:.3g} <= {:g}: the fluid hardly feels it", loading, two_way_loading);
   return {
-      "turbulence", false, turbulent(scene, n), n.gap_reynolds / limit,
-      fmt::format(
-          "Re* = {:.3g}, gap Reynolds number {:.3g} at theta = {:.2g} (turbulent above Re* 5 and {:.0f}): laminar {}",
-          n.friction_reynolds, n.gap_reynolds, n.shields, limit, turbulent(scene, n) ? "assumed" : "indeed")};
+      .wanted = f.grains.any,
+      .ratio = loading,
+      .reason = fmt::format("{}, by the law of {}; without it the flow moves no grain", why, name_of(f.scene.drag))};
+}
+
+ModelChoice buoyancy(const Facts& f) {
+  const double share = 1 / f.n.density_ratio;
+  return {.wanted = f.grains.any,
+          .ratio = share,
+          .reason = fmt::format("1/s = {:.3g} of a grain's weight; without it grains weigh {:.3g} times too much",
+                                share, f.n.density_ratio > 1 ? 1 / (1 - share) : no_number)};
+}
+
+/// Both halves of Model A by one rule: fluid that accelerates as grains do, |Du/Dt| ~ g, pushes them by V rho_f Du/Dt.
+double unsteady_ratio(const Facts& f) { return 1 / std::abs(f.n.density_ratio - 1); }
+
+ModelChoice pressure_gradient(const Facts& f) {
+  const double ratio = unsteady_ratio(f);
+  return {.wanted = f.grains.any && ratio > unsteady_share,
+          .ratio = ratio,
+          .reason = fmt::format("fluid that accelerates by g pushes a grain with 1/|s - 1| = {:.3g} of its submerged "
+                                "weight ({} {:g}); without it (Model B) only steady, nearly uniform flow is right",
+                                ratio, side(ratio > unsteady_share), unsteady_share)};
+}
+
+ModelChoice viscous_stress(const Facts& f) {
+  const double ratio = unsteady_ratio(f);
+  return {.wanted = f.grains.any && ratio > unsteady_share,
+          .ratio = ratio,
+          .reason =
+              "the other half of Model A, together with pressure_gradient or not at all; without it the shear that "
+              "varies over a grain does not pull it"};
+}
+
+ModelChoice self_disturbance(const Facts& f) {
+  const double size = f.diameter() / f.edge(), share = f.n.self_response;
+  const bool lone = f.grains.loosest < dense;
+  const auto why = !lone ? fmt::format("no lone grain: packing around every grain >= {:g}", dense)
+                         : fmt::format("d/h = {:.2g} {} {:g}: {:.2g} of a lone grain's drag comes back to it as flow",
+                                       size, side(size > small_grain), small_grain, share);
+  const double fast = share < 1 ? 100 * share / (1 - share) : no_number;
+  return {.wanted = f.grains.any && lone && size > small_grain,
+          .ratio = lone ? share : no_number,
+          .reason = fmt::format("{}; without it a lone grain {}", why,
+                                share < 1 ? fmt::format("falls about {:.2g} % too fast", fast)
+                                          : std::string("feels no drag worth the name"))};
+}
+
+ModelChoice added_mass(const Facts& f) {
+  const double share = lone_added_mass / (f.n.density_ratio + lone_added_mass);
+  return {.wanted = f.grains.mobile && f.n.density_ratio < light_grain,
+          .ratio = share,
+          .reason =
+              fmt::format("{:.2g} of the inertia of a grain of s = {:.3g} ({} {:g}); without it grains start and stop "
+                          "that much too fast, steady motion stays",
+                          share, f.n.density_ratio, f.n.density_ratio < light_grain ? "<" : ">=", light_grain)};
+}
+
+/// A force or torque that needs shear.
+ModelChoice not_sheared(const std::string& what) {
+  return {.ratio = 0, .reason = fmt::format("no shear over bed or bottom: {} = 0", what)};
+}
+
+ModelChoice shear_lift(const Facts& f) {
+  if (!f.sheared()) return not_sheared("1.10 theta Re_g");
+  const double ratio = f.n.lift_per_weight, re = f.n.shear_reynolds;
+  return {.wanted = re > slow_shear && ratio > share_of_weight,
+          .ratio = ratio,
+          .reason = fmt::format(
+              "lift on a surface grain 1.10 theta Re_g = {:.2g} of its weight ({} {:g}), Re_g = {:.2g} "
+              "({} {:g}); without it so much too heavy",
+              ratio, side(ratio > share_of_weight), share_of_weight, re, side(re > slow_shear), slow_shear)};
+}
+
+/// A surface grain that does not turn yet, at half a diameter from the bed.
+ModelChoice magnus(const Facts& f) {
+  if (!f.sheared()) return not_sheared("spin against the fluid");
+  const double d = f.diameter(), nu = f.scene.bed.fluid.viscosity, shear = f.n.shear_rate;
+  const Vec3 slip{0.5 * shear * d, 0, 0}, spin{0, -0.5 * shear, 0};
+  const double spin_ratio = norm(spin) * d / (2 * norm(slip)), re = norm(slip) * d / nu;
+  const double weight = std::abs(f.n.density_ratio - 1) * norm(f.scene.bed.gravity) * sphere_volume(d);
+  const double ratio = norm(cross(slip, bedload::magnus(slip, spin, d, nu))) / weight;
+  return {.wanted =
+              f.grains.mobile && f.grains.may_turn && spin_ratio > spinning && re > inertial && ratio > share_of_weight,
+          .ratio = ratio,
+          .reason = fmt::format("force by spin {:.2g} of a surface grain's weight ({} {:g}), omega d/(2 w) = {:.2g}, "
+                                "Re = {:.2g} ({} {:g}); without it so much is missing beside shear lift",
+                                ratio, side(ratio > share_of_weight), share_of_weight, spin_ratio, re,
+                                side(re > inertial), inertial)};
+}
+
+ModelChoice viscous_torque(const Facts& f) {
+  if (!f.sheared()) return not_sheared("6 theta");
+  const double ratio = f.n.torque_per_weight;
+  return {
+      .wanted = f.grains.mobile && ratio > share_of_weight,
+      .ratio = ratio,
+      .reason = fmt::format("torque on a surface grain 6 theta = {:.2g} of its weight times radius ({} {:g}); without "
+                            "it theta_c comes out too high",
+                            ratio, side(ratio > share_of_weight), share_of_weight)};
+}
+
+ModelChoice wall_forces(const Facts& f) {
+  const double k = f.grains.nearness, ratio = 9.0 / 16 * k;
+  if (k == 0)
+    return {.ratio = 0,
+            .reason = fmt::format("{}: a drag law for many grains knows the neighbours",
+                                  f.grains.loosest < dilute && !f.grains.bed ? "no plane wall near a lone grain"
+                                                                             : "no lone grain beside a wall")};
+  return {
+      .wanted = k > near_wall,
+      .ratio = ratio,
+      .reason = fmt::format("a lone grain comes to a/z = {:.2g} ({} {:g}) of a wall: 9/16 a/z = {:.2g}; without it so "
+                            "much drag is missing there, and more in contact",
+                            k, side(k > near_wall), near_wall, ratio)};
+}
+
+/// Both film models; of the two, the one that is on, else restitution, which costs nothing.
+ModelChoice film(const Facts& f, bool chosen, std::string_view other) {
+  const double st = f.n.impact_stokes, share = st > 0 ? 1 - std::exp(-loss_per_stokes / st) : 1;
+  const bool wet = f.grains.collide && st < dry_impact && st > 0;
+  auto why = !f.grains.collide ? std::string("nothing collides")
+             : !(st > 0)       ? std::string("nothing is known to bring grains together")
+                         : fmt::format("impact Stokes number {:.2g} ({} {:g}): the film takes {:.0f} % of a rebound",
+                                       st, st < dry_impact ? "<" : ">=", dry_impact, 100 * share);
+  why += chosen ? "; without it collisions rebound as dry ones" : fmt::format("; {} stands for it", other);
+  return {.wanted = wet && chosen, .ratio = f.grains.collide && st > 0 ? share : no_number, .reason = why};
+}
+ModelChoice wet_restitution(const Facts& f) { return film(f, !f.scene.terms.lubrication, "lubrication"); }
+ModelChoice lubrication(const Facts& f) { return film(f, f.scene.terms.lubrication, "wet_restitution"); }
+
+ModelChoice exposure(const Facts& f) {
+  return {.ratio = no_number,
+          .reason = f.grains.bed ? "an empirical factor for surface grains that stand out: only where a list names it; "
+                                   "without it theta_c of random beds comes out too high"
+                                 : "no bed to stand out of"};
+}
+
+ModelChoice turbulence(const Facts& f) {
+  const auto& n = f.n;
+  if (std::isnan(n.gap_reynolds)) return not_sheared("gap Reynolds number");
+  const bool wild = is_turbulent(f.scene, n);
+  const auto bed = std::isnan(n.friction_reynolds)
+                       ? std::string()
+                       : fmt::format("Re* = {:.3g} ({} {:g}), ", n.friction_reynolds,
+                                     side(n.friction_reynolds > smooth_bed_reynolds), smooth_bed_reynolds);
+  return {
+      .wanted = wild,
+      .ratio = n.gap_reynolds / turbulent_gap(f.scene),
+      .reason = fmt::format("{}gap Reynolds number {:.3g} ({} {:g}){}: {}", bed, n.gap_reynolds,
+                            side(n.gap_reynolds > turbulent_gap(f.scene)), turbulent_gap(f.scene),
+                            std::isnan(n.shields) ? "" : fmt::format(" at theta = {:.2g}", n.shields),
+                            wild ? "turbulent; without it laminar is assumed, against the numbers" : "laminar indeed")};
+}
+
+ModelChoice rolling_friction(const Facts& f) {
+  const double mu = f.scene.bed.grains.rolling_friction;
+  return {
+      .term = "rolling_friction",
+      .on = mu > 0,
+      .ratio = mu,
+      .reason = mu > 0 ? fmt::format("mu_r = {:g}, as grains.rolling_friction says; no rule asks for it", mu)
+                       : "spheres roll freely; grains.rolling_friction stands for angular grains, no rule asks for it"};
+}
+
+struct Rule {
+  std::string_view term;
+  ModelChoice (*judge)(const Facts&);
+};
+constexpr Rule rules[] = {{"drag", drag},
+                          {"buoyancy", buoyancy},
+                          {"pressure_gradient", pressure_gradient},
+                          {"viscous_stress", viscous_stress},
+                          {"self_disturbance", self_disturbance},
+                          {"added_mass", added_mass},
+                          {"shear_lift", shear_lift},
+                          {"magnus", magnus},
+                          {"viscous_torque", viscous_torque},
+                          {"wall_forces", wall_forces},
+                          {"wet_restitution", wet_restitution},
+                          {"lubrication", lubrication},
+                          {"exposure", exposure},
+                          {"turbulence", turbulence}};
+static_assert(std::size(rules) == std::size(named_terms));
+
+constexpr auto without_grains = "there are no grains";
+
+bool Terms::*member(std::string_view name) { return std::ranges::find(named_terms, name, &NamedTerm::name)->term; }
+
+/// The ratio as a reader wants it beside a name.
+std::string with_ratio(const ModelChoice& m) {
+  return std::isfinite(m.ratio) ? fmt::format("{} ({:.2g})", m.term, m.ratio) : m.term;
 }
 
 }   // namespace
 
-SceneNumbers numbers_of(const Scene& scene) {
-  const auto& bed = scene.bed;
-  const double d = bed.grains.diameter, nu = bed.fluid.viscosity, g = norm(bed.gravity);
-  SceneNumbers n;
-  n.density_ratio = bed.grains.density / bed.fluid.density;
-  const bool heavy = n.density_ratio > 1 && g > 0;
-  n.galileo = heavy ? galileo_number(n.density_ratio, g, d, nu) : nan;
-  const double fall = heavy ? terminal_speed(scene.drag, nu, n.density_ratio, d, g) : nan;
-  n.grain_time = heavy ? grain_time(d, n.density_ratio, g, fall) : nan;
-  n.settling_reynolds = reynolds_number(fall, d, nu);
-  n.solid_fraction = has_grains(scene) ? loose_packing : 0;
-  n.bed_depth = std::min(expected_bed_depth(bed), 0.95 * bed.length.z) / d;
-  n.gap = bed.length.z - n.bed_depth * d;
-  n.lowest_shields = n.highest_shields = n.shields = n.friction_reynolds = n.shear_reynolds = nan;
-  n.flow_speed = n.gap_reynolds = n.impact_stokes = nan;
-  if (sheared(scene) && heavy) flow_numbers(scene, n);
-  return n;
+std::vector<ModelChoice> required_models(const Scene& scene) {
+  const Facts facts{scene, census_of(scene), numbers_of(scene)};
+  std::vector<ModelChoice> models;
+  for (const auto& rule : rules) {
+    const bool of_grains = rule.term != "turbulence";
+    auto& m = models.emplace_back();
+    if (facts.grains.any || !of_grains) m = rule.judge(facts);
+    else m.ratio = no_number, m.reason = without_grains;
+    m.term = rule.term, m.on = scene.terms.*member(rule.term);
+  }
+  if (facts.grains.any) models.push_back(rolling_friction(facts));
+  return models;
 }
 
-std::vector<ModelChoice> required_models(const Scene& scene) {
-  const auto n = numbers_of(scene);
-  std::vector<ModelChoice> models{drag(scene, n), buoyancy(scene, n), pressure_gradient(scene, n),
-                                  viscous_stress(scene, n), added_mass(n)};
-  if (std::isnan(n.shields)) return models;
-  for (auto& model : {shear_lift(n), lubrication(n), viscous_torque(n), turbulence(scene, n)}) models.push_back(model);
-  return models;
+Terms wanted_terms(const Scene& scene) {
+  Scene blank = scene;
+  for (const auto& named : named_terms) blank.terms.*named.term = false;
+  Terms wanted = blank.terms;
+  for (const auto& m : required_models(blank))
+    if (m.wanted) wanted.*member(m.term) = true;
+  return wanted;
 }
 
 std::vector<std::string> warnings_of(const Scene& scene) {
   std::vector<std::string> warnings;
-  const auto n = numbers_of(scene);
-  if (!std::isnan(n.shields) && turbulent(scene, n)) {
+  for (const auto& problem : range_problems_of(scene)) warnings.push_back(problem.message);
+  const bool dry = std::ranges::none_of(named_terms, [&](const NamedTerm& t) { return scene.terms.*t.term; });
+  if (dry && census_of(scene).any) {
     warnings.push_back(
-        fmt::format("this laminar scene is not physical: theta = {:.2g} means a {} of {:.3g} m/s, a gap Reynolds "
-                    "number of {:.2g} and Re* = {:.3g}; "
-                    "the real flow is turbulent. A more viscous liquid or smaller grains make it laminar",
-                    n.shields, scene.drive.kind == FlowRamp::Kind::lid ? "lid speed" : "mean speed", n.flow_speed,
-                    n.gap_reynolds, n.friction_reynolds));
+        "terms = []: the grains are dry; no term joins them to the fluid, which only makes room for them");
+    return warnings;
   }
-  for (const auto& model : required_models(scene)) {
-    const bool of_this_version = model.term == "drag" || model.term == "buoyancy" ||
-                                 model.term == "pressure_gradient" || model.term == "viscous_stress";
-    if (of_this_version && model.wanted && !model.on)
-      warnings.push_back(fmt::format("{} is left out, though the scene wants it: {}", model.term, model.reason));
-  }
+  std::string left_out;
+  for (const auto& m : required_models(scene))
+    if (m.wanted && !m.on) left_out += (left_out.empty() ? "" : ", ") + with_ratio(m);
+  if (!left_out.empty())
+    warnings.push_back(
+        fmt::format("models.terms leaves out what the rules want, with the ratio that decides: {}", left_out));
   return warnings;
 }
 

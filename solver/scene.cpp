@@ -1,6 +1,7 @@
 // Which scenes can run.
 #include "solver/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -92,13 +93,52 @@ void check_drive(const Scene& scene, Found& found) {
         {"drive.shields.from", "grains without submerged weight have no Shields number", "drive by speed or gradient"});
 }
 
-void check_models(const Scene& scene, Found& found) {
-  if (scene.terms.pressure_gradient != scene.terms.viscous_stress) {
-    found.push_back(
-        {"models.terms",
-         "pressure_gradient and viscous_stress are two halves of one model of the void fraction: both or neither",
-         "all four terms (Model A), or [\"drag\", \"buoyancy\"] (Model B)"});
-  }
+/// Terms that act by the drag coefficient, or correct it.
+constexpr NamedTerm beside_drag[] = {{"self_disturbance", &Terms::self_disturbance},
+                                     {"shear_lift", &Terms::shear_lift},
+                                     {"magnus", &Terms::magnus},
+                                     {"viscous_torque", &Terms::viscous_torque},
+                                     {"wall_forces", &Terms::wall_forces},
+                                     {"exposure", &Terms::exposure}};
+
+void check_terms(const Scene& scene, Found& found) {
+  const auto& terms = scene.terms;
+  const auto refuse = [&](std::string message, std::string hint) {
+    found.push_back({"models.terms", std::move(message), std::move(hint)});
+  };
+  if (terms.pressure_gradient != terms.viscous_stress)
+    refuse("pressure_gradient and viscous_stress are two halves of one model of the void fraction: both or neither",
+           "both (Model A), or neither (Model B)");
+  if (terms.wet_restitution && terms.lubrication)
+    refuse("wet_restitution and lubrication are both the film between grains that meet: together they count it twice",
+           "keep one: wet_restitution costs nothing, lubrication resolves the film");
+  for (const auto& [name, term] : beside_drag)
+    if (scene.terms.*term && !terms.drag)
+      refuse(fmt::format("{} works on the drag of a grain, and drag is left out", name),
+             fmt::format("add \"drag\", or leave {} out", name));
+  const bool has_wall = std::ranges::find(scene.bed.sides, Side::wall) != scene.bed.sides.end();
+  if (terms.wall_forces && !has_wall)
+    refuse("wall_forces belong to plane walls, and the box has none", "leave wall_forces out, or box.z = \"wall\"");
+  const bool turns =
+      terms.viscous_torque || scene.bed.grains.friction > 0 || scene.bed.source.kind == BedSource::Kind::file;
+  if (terms.magnus && !turns)
+    refuse("magnus is the force of a grain's spin, and nothing turns these: no viscous_torque, no friction",
+           "add \"viscous_torque\", or grains.friction");
+  if (terms.exposure && scene.bed.source.kind == BedSource::Kind::none)
+    refuse("exposure is that of grains in a bed, and there is none", "leave exposure out");
+}
+
+void check_roughness(const Scene& scene, Found& found) {
+  if (scene.bottom_roughness == 0) return;
+  if (!scene.terms.turbulence)
+    found.push_back({"box.roughness",
+                     "a rough wall has meaning only for a turbulent flow, and turbulence is not among the terms",
+                     "add \"turbulence\" to models.terms, or leave roughness out"});
+  if (scene.bed.sides[2] == Side::periodic)
+    found.push_back({"box.roughness", "it is that of the bottom, and a periodic z has none", "leave it out"});
+}
+
+void check_tracks(const Scene& scene, Found& found) {
   for (const auto id : scene.record.tracks) {
     if (scene.bed.source.kind == BedSource::Kind::file || id < scene.bed.source.count) continue;
     found.push_back({"record.tracks",
@@ -145,7 +185,9 @@ std::vector<SceneProblem> problems_of(const Scene& scene) {
   check_fit(scene.bed, found);
   check_grid(scene, found);
   check_drive(scene, found);
-  check_models(scene, found);
+  check_terms(scene, found);
+  check_roughness(scene, found);
+  check_tracks(scene, found);
   check_steps(scene, found);
   return found;
 }

@@ -94,7 +94,6 @@ struct Scene {
   DragLawName drag = DragLawName::di_felice;
   Terms terms;
   Smoothing smoothing;
-  bool strict = false;   // a warning of warnings_of() is an error
   Steps steps;
   RecordPlan record;
   bool bed_only = false;   // finished once the bed has settled (a bed directory)

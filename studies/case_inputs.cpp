@@ -14,6 +14,7 @@
 #include "solver/expected_bed.hpp"
 #include "solver/grains/bed_packing.hpp"
 #include "solver/grains/grain_dynamics.hpp"
+#include "solver/required_models.hpp"
 #include "studies/input_list.hpp"
 #include "studies/study_keys.hpp"
 
@@ -61,6 +62,7 @@ class Resolver : InputList {
   void take_unless_default(std::string_view key);
   void onset();
   void models();
+  void wanted();
   void grains();
   void stiffness();
   void dem_step();
@@ -271,11 +273,19 @@ void Resolver::onset() {
 void Resolver::models() {
   inputs.values["models.fluid"] = std::string("box");
   take("models.drag");
-  if (is_auto("models.terms")) {
-    inputs.values["models.terms"] = std::vector<std::string>{"buoyancy", "drag", "pressure_gradient", "viscous_stress"};
-  } else {
-    take("models.terms");
-  }
+  if (is_auto("models.terms")) inputs.values["models.terms"] = std::vector<std::string>{};   // until wanted() knows them
+  else take("models.terms");
+}
+
+/// "auto": the terms that the scene requires. In the order of read lists, so that the same terms are the same case.
+void Resolver::wanted() {
+  if (!is_auto("models.terms")) return;
+  const auto terms = wanted_terms(scene_of(inputs));
+  std::vector<std::string> names;
+  for (const auto& [name, term] : named_terms)
+    if (terms.*term) names.emplace_back(name);
+  std::ranges::sort(names);
+  inputs.values["models.terms"] = names;
 }
 
 /// Before stiffness and steps are computed from them.
@@ -342,6 +352,7 @@ CaseInputs Resolver::run() {
   else inputs.values["record.tracks"] = std::vector<std::uint64_t>{};
   bed();
   if (no_problems() && complete()) grains();
+  if (no_problems() && complete()) wanted();
   if (no_problems() && complete()) stiffness();
   if (no_problems() && inputs.has("grains.stiffness")) dem_step();
   if (no_problems() && inputs.has("steps.dem")) duration();

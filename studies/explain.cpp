@@ -58,7 +58,12 @@ Rows scene_numbers(const Scene& scene) {
   add("density ratio s", n.density_ratio, "");
   add("Galileo number Ga", n.galileo, "");
   add("grain time td", n.grain_time, "s");
+  add("settling speed of a lone grain", n.settling_speed, "m/s");
   add("settling Reynolds number", n.settling_reynolds, "");
+  add("largest grain Reynolds number expected", n.grain_reynolds, "");
+  add("solid fraction of bed or suspension", n.solid_fraction, "");
+  add("cell edge, mean / d", std::cbrt(scene.grid.cell_volume()) / bed.grains.diameter, "");
+  add("kappa, own drag that comes back to a lone grain", n.self_response, "");
   add("bed depth, expected", n.bed_depth, "d");
   add("gap above it", n.gap / bed.grains.diameter, "d");
   add("lowest Shields number", n.lowest_shields, "");
@@ -67,6 +72,7 @@ Rows scene_numbers(const Scene& scene) {
   add("shear Reynolds number Re_g" + at, n.shear_reynolds, "");
   add((lid ? "lid speed" : "mean speed") + at, n.flow_speed, "m/s");
   add("gap Reynolds number" + at, n.gap_reynolds, "");
+  add("impact speed" + at, n.impact_speed, "m/s");
   add("impact Stokes number" + at, n.impact_stokes, "");
   add("Young's modulus", bed.grains.young_modulus, "Pa");
   add("DEM step", bed.dem_step, "s");

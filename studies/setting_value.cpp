@@ -47,6 +47,7 @@ struct ValueReader {
   Value word() const;
   Value words() const;
   Value ids() const;
+  Value flag() const;
 };
 
 Value ValueReader::in_range(double of, SettingValue value) const {
@@ -121,6 +122,11 @@ Value ValueReader::ids() const {
   return read;
 }
 
+Value ValueReader::flag() const {
+  if (!node.is(StudyNode::Kind::truth)) return refuse_kind("true or false", "write true or false, without quotes");
+  return std::string(node.truth ? "true" : "false");
+}
+
 Value read_kind(const ValueReader& reader) {
   switch (reader.key.kind) {
     case Kind::number: return reader.number();
@@ -130,6 +136,7 @@ Value read_kind(const ValueReader& reader) {
     case Kind::word: return reader.word();
     case Kind::words: return reader.words();
     case Kind::ids: return reader.ids();
+    case Kind::flag: return reader.flag();
   }
   return std::nullopt;
 }

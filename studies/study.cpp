@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "solver/grains/bed_packing.hpp"
+#include "solver/scene_range.hpp"
 #include "studies/case_identity.hpp"
 #include "studies/study_keys.hpp"
 
@@ -90,6 +91,11 @@ Place place_in(const Settings& settings, std::string_view key) {
   return {};
 }
 
+void add_problems(const std::vector<SceneProblem>& found, const Settings& settings, Problems& problems) {
+  for (const auto& p : found)
+    problems.add(place_in(settings, p.parameter), fmt::format("{}: {}", p.parameter, p.message), p.hint);
+}
+
 /// Grains that cannot be placed: found by placing them, once per bed.
 void check_placing(const Scene& scene, const Settings& settings, Problems& problems) {
   try {
@@ -98,6 +104,11 @@ void check_placing(const Scene& scene, const Settings& settings, Problems& probl
     const std::string key = scene.bed.source.kind == BedSource::Kind::file ? "bed.file" : "bed.count";
     problems.add(place_in(settings, key), fmt::format("{}: {}", key, error.what()), error.hint);
   }
+}
+
+bool is_strict(const Settings& settings) {
+  const auto found = settings.find("models.strict");
+  return found != settings.end() && std::get<std::string>(found->second.value) == "true";
 }
 
 Case make_case(const Study& study, const Choice& choice, CaseInputs inputs) {
@@ -133,14 +144,15 @@ std::vector<Case> unfold(const Study& study, const TableReader& read_table) {
   Problems problems(study.file.string());
   std::vector<Case> cases;
   std::set<std::string> placed;
+  const bool strict = is_strict(study.settings);
   for (const auto& choice : product(study.axes)) {
     if (excluded(study, choice)) continue;
     const auto settings = settings_of(study, choice);
     auto inputs = resolve(settings, study.file.parent_path(), problems, read_table);
     if (!problems.empty()) continue;
     auto one = make_case(study, choice, std::move(inputs));
-    for (const auto& p : problems_of(one.scene))
-      problems.add(place_in(settings, p.parameter), fmt::format("{}: {}", p.parameter, p.message), p.hint);
+    add_problems(problems_of(one.scene), settings, problems);
+    if (problems.empty() && strict) add_problems(range_problems_of(one.scene), settings, problems);
     if (problems.empty() && placed.insert(one.bed_id.empty() ? one.id : one.bed_id).second)
       check_placing(one.scene, settings, problems);
     cases.push_back(std::move(one));

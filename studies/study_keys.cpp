@@ -117,6 +117,7 @@ constexpr StudyKey keys[] = {
     word("models.fluid", "fluid", "auto|box", "auto", "profile|column"),
     word("models.drag", "drag", laws, "di_felice"),
     {"models.terms", Kind::words, dimension::number, Range::any, terms, {}, "auto", true, "terms"},
+    {.path = "models.strict", .kind = Kind::flag, .fallback = "false", .physics = false},
 
     amount("steps.dem", dimension::time, "dt", "auto", "auto"),
     amount("steps.fluid", dimension::time, "T", "auto", "auto"),

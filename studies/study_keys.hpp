@@ -11,7 +11,7 @@
 namespace bedload {
 
 struct StudyKey {
-  enum class Kind { text, word, number, count, quantity, words, ids };
+  enum class Kind { text, word, number, count, quantity, words, ids, flag };
   enum class Range { any, positive, not_negative };
 
   std::string_view path;   // dotted

@@ -1,0 +1,148 @@
+// From a scene to its dimensionless numbers.
+#include "solver/scene_numbers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/bed/incipient_motion.hpp"
+#include "solver/coupling/drag_laws.hpp"
+#include "solver/coupling/wall_effects.hpp"
+#include "solver/dimensionless.hpp"
+#include "solver/expected_bed.hpp"
+
+namespace bedload {
+
+namespace {
+
+using Kind = FlowRamp::Kind;
+
+constexpr double carried_share = 0.2;   // of the shear rate times d: speed at which shear throws grains at each other
+constexpr double couette_transition = 1300;   // U h/nu beyond which a Couette flow may stay turbulent
+constexpr double channel_transition = 1500;   // of the mean speed, between plates
+constexpr double log_law_at_the_top = 8.5;    // u+ at a rough bed's grains, Nikuradse
+
+double weight_per_mass(const Scene& scene) {   // submerged, per mass of fluid [m/s2]
+  const double s = scene.bed.grains.density / scene.bed.fluid.density;
+  return std::abs(s - 1) * norm(scene.bed.gravity);
+}
+
+/// Laminar shear rate at the bed or bottom that a level of the drive imposes [1/s].
+double shear_of_level(const Scene& scene, std::size_t level, double height, double gap) {
+  const auto flow = imposed_flow(scene, level, height);
+  if (scene.drive.kind == Kind::lid) return std::abs(flow.lid_speed) / gap;
+  return std::abs(flow.gradient) * (scene.bed.top == Top::free_slip ? gap : gap / 2) / scene.bed.fluid.viscosity;
+}
+
+double shields_of_shear(const Scene& scene, double shear) {
+  const double weight = weight_per_mass(scene);
+  return weight > 0 ? scene.bed.fluid.viscosity * shear / (weight * scene.bed.grains.diameter) : no_number;
+}
+
+/// kappa at the speed of fall. A grain that moves leaves its own flow behind: the Oseen factor of a force spread over a width
+/// w, 1/(1 + 0.49 U w/nu) within 8 %, with w that of a sphere's worth of kernel, 0.4 d/kappa.
+double self_response(const Scene& scene, double speed) {
+  const double d = scene.bed.grains.diameter, nu = scene.bed.fluid.viscosity;
+  const Vec3 h = scene.grid.h;
+  const double creeping = std::max(mean_response(true, d, h.z, h.x), mean_response(false, d, h.z, h.x));
+  const double left_behind = 1 / (1 + 0.49 * reynolds_number(speed, 0.4 * d / creeping, nu));
+  const double multiplier = std::visit(
+      [&](const auto& law) { return law.multiplier(1, reynolds_number(speed, d, nu)); }, drag_law(scene.drag));
+  return creeping * multiplier * left_behind;
+}
+
+void grain_numbers(const Scene& scene, SceneNumbers& n) {
+  const auto& bed = scene.bed;
+  const double d = bed.grains.diameter, nu = bed.fluid.viscosity, g = norm(bed.gravity);
+  n.density_ratio = bed.grains.density / bed.fluid.density;
+  const double weight = weight_per_mass(scene);
+  const double box = bed.length.x * bed.length.y * bed.length.z;
+  if (weight > 0) {
+    n.galileo = std::sqrt(weight * d * d * d) / nu;
+    n.settling_speed = terminal_speed(scene.drag, nu, n.density_ratio, d, g);
+    n.settling_reynolds = reynolds_number(n.settling_speed, d, nu);
+    if (n.density_ratio > 1) n.grain_time = grain_time(d, n.density_ratio, g, n.settling_speed);
+  }
+  n.solid_fraction = static_cast<double>(bed.source.count) * sphere_volume(d) / box;
+  n.self_response = self_response(scene, weight > 0 ? n.settling_speed : 0);
+}
+
+void flow_numbers(const Scene& scene, const GrainCensus& census, SceneNumbers& n) {
+  const auto& bed = scene.bed;
+  const double d = bed.grains.diameter, nu = bed.fluid.viscosity, height = n.bed_depth * d;
+  const double first = shear_of_level(scene, 0, height, n.gap);
+  n.shear_rate = first;
+  if (census.any) {
+    n.lowest_shields = shields_of_shear(scene, first);
+    n.highest_shields = shields_of_shear(scene, shear_of_level(scene, scene.drive.levels.size() - 1, height, n.gap));
+    if (census.bed && census.mobile && n.lowest_shields < quoted_shields)
+      n.shear_rate = quoted_shields * weight_per_mass(scene) * d / nu;
+    n.shields = shields_of_shear(scene, n.shear_rate);
+    n.friction_reynolds = std::sqrt(n.shear_rate / nu) * d;
+    n.shear_reynolds = n.shear_rate * d * d / nu;
+    const double weight = weight_per_mass(scene);
+    n.lift_per_weight = 1.10 * n.shear_rate * n.shear_rate * d / weight;
+    n.torque_per_weight = 6 * n.shear_rate * nu / (weight * d);
+  }
+  const bool lid = scene.drive.kind == Kind::lid;
+  n.flow_speed = n.shear_rate * n.gap / (lid ? 1 : bed.top == Top::free_slip ? 3 : 6);
+  n.gap_reynolds = reynolds_number(n.flow_speed, n.gap, nu);
+}
+
+/// The fastest slip: falling, in the shear at the bed's surface, in a flow through the grains.
+double largest_slip(const Scene& scene, const GrainCensus& census, const SceneNumbers& n) {
+  const double d = scene.bed.grains.diameter, nu = scene.bed.fluid.viscosity;
+  double slip = census.mobile && !std::isnan(n.settling_speed) ? n.settling_speed : 0;
+  if (!std::isnan(n.shear_rate)) {
+    const double height = n.bed_depth * d;
+    const double shear = std::max(n.shear_rate, shear_of_level(scene, scene.drive.levels.size() - 1, height, n.gap));
+    const double friction_speed = std::sqrt(nu * shear);
+    const double in_wall_units = 0.5 * friction_speed * d / nu;   // u+ at the centre of a surface grain, laminar
+    slip = std::max(
+        slip, friction_speed * (scene.terms.turbulence ? std::min(in_wall_units, log_law_at_the_top) : in_wall_units));
+  }
+  if (scene.drive.kind == Kind::through_flow)
+    for (const double level : scene.drive.levels) slip = std::max(slip, std::abs(level));
+  return reynolds_number(slip, d, nu);
+}
+
+void impact_numbers(const Scene& scene, SceneNumbers& n) {
+  const double d = scene.bed.grains.diameter;
+  const double fall = std::isnan(n.settling_speed) ? 0 : n.settling_speed;
+  const double carried = std::isnan(n.shear_rate) ? 0 : carried_share * n.shear_rate * d;
+  n.impact_speed = std::max(fall, carried);
+  n.impact_stokes = impact_stokes_number(n.density_ratio, d, n.impact_speed, scene.bed.fluid.viscosity);
+}
+
+}   // namespace
+
+bool is_sheared(const Scene& scene) {
+  const bool flows = scene.drive.kind == Kind::lid || scene.drive.kind == Kind::pressure;
+  return flows && scene.bed.sides[2] == Side::wall && !scene.drive.levels.empty();
+}
+
+SceneNumbers numbers_of(const Scene& scene) {
+  const auto& bed = scene.bed;
+  const auto census = census_of(scene);
+  SceneNumbers n;
+  n.bed_depth = census.any ? std::min(expected_bed_depth(bed), 0.95 * bed.length.z) / bed.grains.diameter : 0;
+  n.gap = bed.length.z - n.bed_depth * bed.grains.diameter;
+  if (census.any) grain_numbers(scene, n);
+  if (census.bed) n.solid_fraction = loose_packing;
+  if (is_sheared(scene)) flow_numbers(scene, census, n);
+  if (!census.any) return n;
+  if (census.mobile) impact_numbers(scene, n);
+  n.grain_reynolds = largest_slip(scene, census, n);
+  return n;
+}
+
+double turbulent_gap(const Scene& scene) {
+  return scene.drive.kind == Kind::lid ? couette_transition : channel_transition;
+}
+
+bool is_turbulent(const Scene& scene, const SceneNumbers& n) {
+  if (scene.bed.sides[0] == Side::wall) return false;   // a cavity, not a channel
+  const bool rough_enough = std::isnan(n.friction_reynolds) || n.friction_reynolds > smooth_bed_reynolds;
+  return rough_enough && n.gap_reynolds > turbulent_gap(scene);   // false where nothing is sheared (nan)
+}
+
+}   // namespace bedload

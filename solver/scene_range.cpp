@@ -1,0 +1,244 @@
+// Checks of range, one function each.
+#include "solver/scene_range.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "solver/coupling/drag_laws.hpp"
+#include "solver/dimensionless.hpp"
+#include "solver/expected_bed.hpp"
+#include "solver/grains/bed_packing.hpp"
+#include "solver/scene_numbers.hpp"
+
+namespace bedload {
+
+namespace {
+
+using Kind = FlowRamp::Kind;
+using Found = std::vector<SceneProblem>;
+
+constexpr double cohesive_size = 60e-6;       // [m]: silt and clay stick
+constexpr double thermal_energy = 4.05e-21;   // k T at 20 degrees Celsius [J]
+constexpr double brownian_peclet = 10;        // W' d/(k T) below which grains diffuse as fast as they fall
+constexpr double largest_response = 0.7;      // kappa up to which a correction by 1/(1 - kappa) is trusted
+constexpr double cells_in_a_gap = 4;
+constexpr double cell_at_a_bed = 2;   // d: over more, the speed at a surface grain is that of the cell
+constexpr double shallow_bed = 5;     // d: creep reaches the bottom
+constexpr double repose = 25 * std::numbers::pi / 180;   // of smooth spheres 22-26 degrees
+constexpr double soft_overlap = 0.01;                    // of d
+constexpr double lift_reynolds = 200, spin_reynolds = 140;
+constexpr double thin_fluid = 100;   // s from which buoyancy is less than 1 % of the weight
+
+struct Facts {
+  const Scene& scene;
+  GrainCensus grains;
+  SceneNumbers n;
+  double diameter() const { return scene.bed.grains.diameter; }
+  double viscosity() const { return scene.bed.fluid.viscosity; }
+  bool sheared_bed() const { return grains.bed && !std::isnan(n.shear_rate); }
+};
+
+void laminar_assumed(const Facts& f, Found& found) {
+  if (f.scene.terms.turbulence || !is_turbulent(f.scene, f.n)) return;
+  const auto& n = f.n;
+  const auto speed = f.scene.drive.kind == Kind::lid ? "lid speed" : "mean speed";
+  const auto at = std::isnan(n.shields) ? std::string() : fmt::format("theta = {:.2g} means ", n.shields);
+  const auto rough =
+      std::isnan(n.friction_reynolds) ? std::string() : fmt::format(" and Re* = {:.3g}", n.friction_reynolds);
+  found.push_back(
+      {"fluid.viscosity",
+       fmt::format("this laminar scene is not physical: {}a {} of {:.3g} m/s, a gap Reynolds number of {:.2g} "
+                   "(laminar up to {:g}){}; the real flow is turbulent",
+                   at, speed, n.flow_speed, n.gap_reynolds, turbulent_gap(f.scene), rough),
+       "a more viscous liquid or smaller grains make it laminar; the term turbulence models it"});
+}
+
+void drag_law_reynolds(const Facts& f, Found& found) {
+  const auto range = range_of(f.scene.drag);
+  if (!f.scene.terms.drag || !(f.n.grain_reynolds > range.highest_re)) return;
+  found.push_back({"models.drag",
+                   fmt::format("grains come to Re = {:.3g}; the drag law {} is made for Re up to {:g}",
+                               f.n.grain_reynolds, name_of(f.scene.drag), range.highest_re),
+                   "another law (docs/physics_coupling.md lists their ranges), or a slower flow"});
+}
+
+void drag_law_packing(const Facts& f, Found& found) {
+  if (!f.grains.any || !f.scene.terms.drag) return;
+  const auto range = range_of(f.scene.drag);
+  const double dense = 1 - f.grains.densest, loose = 1 - f.grains.loosest;
+  if (dense < range.lowest_void)
+    found.push_back(
+        {"models.drag",
+         fmt::format("the void fraction among grains comes down to about {:.2g}; the drag law {} is made for {:g} "
+                     "and more",
+                     dense, name_of(f.scene.drag), range.lowest_void),
+         "for beds and suspensions: di_felice, gidaspow, beetstra, tang, koch_hill or rong"});
+  if (f.grains.mobile && loose > range.highest_void)
+    found.push_back(
+        {"models.drag",
+         fmt::format("grains that stand free have a void fraction of about {:.2g} around them; the drag law {} is "
+                     "made for {:g} and less, and leaves them with too little drag",
+                     loose, name_of(f.scene.drag), range.highest_void),
+         "gidaspow is ergun in the bed and Wen and Yu above it"});
+}
+
+void small_grains(const Facts& f, Found& found) {
+  if (!f.grains.mobile) return;
+  const double d = f.grains.smallest;
+  const double weight =
+      std::abs(f.scene.bed.grains.density - f.scene.bed.fluid.density) * norm(f.scene.bed.gravity) * sphere_volume(d);
+  if (d < cohesive_size)
+    found.push_back(
+        {"grains.diameter",
+         fmt::format("grains of {:.3g} micron: below about {:g} micron cohesion holds natural grains together; "
+                     "there is none here",
+                     1e6 * d, 1e6 * cohesive_size),
+         "read the result as that of clean spheres, or take larger grains"});
+  if (weight > 0 && weight * d < brownian_peclet * thermal_energy)
+    found.push_back(
+        {"grains.diameter",
+         fmt::format("grains of {:.3g} micron diffuse by Brownian motion: Peclet number W' d/(k T) = {:.2g} < {:g}; "
+                     "there is none here",
+                     1e6 * d, weight * d / thermal_energy, brownian_peclet),
+         "larger or heavier grains"});
+}
+
+void cells_and_lone_grains(const Facts& f, Found& found) {
+  if (!f.scene.terms.self_disturbance || f.grains.bed || !(f.n.self_response > largest_response)) return;
+  found.push_back(
+      {"box.cell.xy",
+       fmt::format("cells of {:.2g} d on average are small for lone grains: kappa = {:.2g} of their drag comes "
+                   "back as flow, and its correction is trusted up to {:g}",
+                   std::cbrt(f.scene.grid.cell_volume()) / f.diameter(), f.n.self_response, largest_response),
+       fmt::format("cells of at least {:.2g} d",
+                   std::cbrt(f.scene.grid.cell_volume()) / f.diameter() * f.n.self_response / largest_response)});
+}
+
+void cells_at_a_bed(const Facts& f, Found& found) {
+  if (!f.sheared_bed()) return;
+  const double h = f.scene.grid.h.z;
+  if (h > cell_at_a_bed * f.diameter())
+    found.push_back(
+        {"box.cell.z",
+         fmt::format("cells {:.2g} d high: the flow at a surface grain is a mean over them, and theta_c depends on "
+                     "their height",
+                     h / f.diameter()),
+         fmt::format("at most {:g} d, better 0.5 d", cell_at_a_bed)});
+  if (f.n.gap < cells_in_a_gap * h)
+    found.push_back(
+        {"box.cell.z",
+         fmt::format("the gap above the bed is {:.2g} cells high; its flow wants {:g}", f.n.gap / h, cells_in_a_gap),
+         "flatter cells, or a higher box"});
+}
+
+void slope(const Facts& f, Found& found) {
+  const auto& g = f.scene.bed.gravity;
+  const double tilt = std::atan2(std::abs(g.x), std::abs(g.z));
+  if (!f.grains.bed || !f.grains.mobile || !(tilt > repose)) return;
+  const double degree = 180 / std::numbers::pi;
+  found.push_back(
+      {"box.slope",
+       fmt::format("{:.3g} degrees are steeper than the angle of repose of spheres, about {:.0f}: the bed slides "
+                   "without any flow",
+                   tilt * degree, repose * degree),
+       "a gentler slope, unless an avalanche is wanted"});
+}
+
+void depth(const Facts& f, Found& found) {
+  if (!f.sheared_bed() || !needs_settling(f.scene.bed) || f.n.bed_depth >= shallow_bed) return;
+  found.push_back({"bed.count",
+                   fmt::format("a bed {:.2g} d deep feels the flat bottom: creep reaches some {:g} d down",
+                               f.n.bed_depth, shallow_bed),
+                   "a deeper bed, for example depth = \"6 d\""});
+}
+
+/// What a hold must outlast: viscosity's way over a diameter (the rest of the flow is laid on), or over the whole gap.
+void holds(const Facts& f, Found& found) {
+  if (!is_sheared(f.scene) || f.scene.onset.method != Onset::Method::ramp) return;
+  const double d = f.diameter(), pi = std::numbers::pi;
+  const double settle = f.scene.developed ? d * d / f.viscosity() : f.n.gap * f.n.gap / (pi * pi * f.viscosity());
+  if (f.scene.drive.dwell >= settle) return;
+  found.push_back(
+      {"drive.dwell",
+       fmt::format("holds of {:.2g} s are shorter than the {:.2g} s that viscosity takes over {}: onset is judged "
+                   "before the flow is steady",
+                   f.scene.drive.dwell, settle, f.scene.developed ? "a diameter at the bed's surface" : "the gap"),
+       fmt::format("a dwell of at least \"{:.2g} s\"", settle)});
+}
+
+/// What a hold imposes, and begins with, is the laminar flow of its level.
+void laminar_levels(const Facts& f, Found& found) {
+  if (!f.scene.terms.turbulence || !is_sheared(f.scene) || !is_turbulent(f.scene, f.n)) return;
+  if (f.scene.drive.kind == Kind::lid && f.scene.drive.quantity == FlowRamp::Quantity::shields)
+    found.push_back(
+        {"drive.kind",
+         "the lid's speed of each level is that of a laminar flow; the turbulent one puts a larger stress on the "
+         "bed: only measured Shields numbers count",
+         "kind = \"pressure\" imposes the stress itself; or give drive.speed"});
+  if (f.scene.developed)
+    found.push_back(
+        {"drive.start",
+         fmt::format("each hold begins with the laminar flow of its level, here {:.3g} m/s, which turbulence must "
+                     "wear down first",
+                     f.n.flow_speed),
+         "start = \"rest\""});
+}
+
+/// Overlap at the bottom, (G14): delta/d = [(pi/2) (1 - nu^2) N (rho_p - rho_f) g d/Y]^(2/3).
+void stiffness(const Facts& f, Found& found) {
+  const auto& bed = f.scene.bed;
+  const auto& g = bed.grains;
+  if (!needs_settling(bed) || !(g.young_modulus > 0)) return;
+  const double load = (g.density - bed.fluid.density) * norm(bed.gravity) * g.diameter * bed_layers(bed);
+  const double overlap =
+      std::pow(0.5 * std::numbers::pi * (1 - g.poisson * g.poisson) * load / g.young_modulus, 2.0 / 3);
+  if (!(overlap > soft_overlap)) return;
+  found.push_back(
+      {"grains.stiffness",
+       fmt::format("the lowest grains overlap by {:.2g} of a diameter under the bed's weight; up to {:g} leaves "
+                   "onset as it is",
+                   overlap, soft_overlap),
+       "\"auto\", or a larger modulus"});
+}
+
+void laws_of_lift(const Facts& f, Found& found) {
+  const double re = f.n.grain_reynolds;
+  const auto beyond = [&](bool on, const char* term, double limit) {
+    if (on && re > limit)
+      found.push_back({"models.terms",
+                       fmt::format("grains come to Re = {:.3g}; the law of {} is known up to {:g}", re, term, limit),
+                       fmt::format("leave {} out, or a slower flow", term)});
+  };
+  beyond(f.scene.terms.shear_lift, "shear_lift", lift_reynolds);
+  beyond(f.scene.terms.magnus, "magnus", spin_reynolds);
+}
+
+void idle_drive(const Facts& f, Found& found) {
+  const auto kind = f.scene.drive.kind;
+  const auto& terms = f.scene.terms;
+  if (f.grains.mobile && !terms.drag && (kind == Kind::lid || kind == Kind::pressure || kind == Kind::through_flow))
+    found.push_back({"drive.kind", "the drive moves the fluid, but without drag the fluid moves no grain",
+                     "add \"drag\" to models.terms, or terms = \"auto\""});
+  if (f.grains.mobile && kind == Kind::push && !terms.buoyancy && f.n.density_ratio < thin_fluid)
+    found.push_back(
+        {"drive.push.from",
+         fmt::format("a push counts in submerged weights, but without buoyancy grains weigh their whole weight, "
+                     "{:.3g} times as much",
+                     f.n.density_ratio / (f.n.density_ratio - 1)),
+         "add \"buoyancy\" to models.terms, or a fluid as thin as air"});
+}
+
+}   // namespace
+
+std::vector<SceneProblem> range_problems_of(const Scene& scene) {
+  const Facts facts{scene, census_of(scene), numbers_of(scene)};
+  Found found;
+  for (const auto check : {laminar_assumed, drag_law_reynolds, drag_law_packing, small_grains, cells_and_lone_grains,
+                           cells_at_a_bed, slope, depth, holds, laminar_levels, stiffness, laws_of_lift, idle_drive})
+    check(facts, found);
+  return found;
+}
+
+}   // namespace bedload
