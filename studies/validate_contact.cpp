@@ -132,6 +132,12 @@ double sliding_throughout(const Material& m, double poisson) {
   return m.friction * (7 - 1 / ratio);
 }
 
+/// Between the plate's normal and the way the centre leaves [deg]: of the slip that the collision took away, 2/7 went from
+/// the sphere's speed and 5/7 into its spin.
+double rebound_angle(const Impact& one, const Material& m) {
+  return degrees(std::atan((one.before - 2.0 / 7 * (one.before - one.after)) / m.restitution));
+}
+
 Findings foerster(const std::vector<FinishedCase>& runs, const Material& m) {
   Findings found;
   for (const auto& run : runs) {
@@ -146,11 +152,11 @@ Findings foerster(const std::vector<FinishedCase>& runs, const Material& m) {
                               .ours = one.after,
                               .band = Band::within(0.01)});
       else if (one.before < sticks_below)
-        found.rows.push_back({.name = fmt::format("{}, Psi2 at Psi1 = {:.3g}, sticking [-]", m.name, one.before),
-                              .reference = -m.tangential * one.before,
-                              .source = "Foerster et al. 1994: -beta0 Psi1",
-                              .ours = one.after,
-                              .band = Band::within_absolute(0.1),
+        found.rows.push_back({.name = fmt::format("{}, rebound at Psi1 = {:.3g}, sticking [deg]", m.name, one.before),
+                              .reference = rebound_angle({one.before, -m.tangential * one.before}, m),
+                              .source = "Foerster et al. 1994: Psi2 = -beta0 Psi1",
+                              .ours = rebound_angle(one, m),
+                              .band = Band::within_absolute(4),
                               .against = Against::experiment});
     }
     found.figures.push_back(
@@ -161,6 +167,54 @@ Findings foerster(const std::vector<FinishedCase>& runs, const Material& m) {
              m.name, m.restitution, m.friction, m.tangential),
          rebound_figure(m, seen)});
   }
+  return found;
+}
+
+// ---- A sphere bounces in a liquid
+
+/// Rebound over dry rebound of spheres in a liquid (Legendre, Zenit, Daniel & Guiraud 2006, through the data of Joseph et al.
+/// 2001 and Gondret et al. 2002).
+double wet_rebound(double stokes) { return std::exp(-35 / stokes); }
+
+/// (rho_p + rho_f/2) d U/(9 mu) of the approach.
+double stokes_number(const FinishedCase& run) {
+  const double speed = -trajectory_of(run, 0).velocity.front().z, rho = run.input("fluid.density");
+  return (run.input("grains.density") + rho / 2) * run.input("grains.diameter") * speed /
+         (9 * rho * run.input("fluid.viscosity"));
+}
+
+std::string bounce_figure(const std::vector<ValidationRow>& rows, const std::vector<double>& stokes) {
+  SvgPlot plot(640, 300, {"Stokes number of the approach", 10, 5000, true}, {"rebound over dry rebound", 0, 1.1}, 190);
+  std::vector<PlotPoint> curve;
+  for (double s = 10; s < 5000; s *= 1.1) curve.push_back({s, wet_rebound(s)});
+  plot.line(curve, {"#333", 1.5, ""});
+  for (std::size_t n = 0; n < rows.size(); ++n)
+    plot.marker({stokes[n], rows[n].ours}, Marker::circle, "#0b6e99", true, fmt::format("{:.3g}", rows[n].ours));
+  plot.legend_line("exp(-35/St)", {"#333", 1.5, ""});
+  plot.legend_marker("bedload", Marker::circle, "#0b6e99", true);
+  return plot.svg();
+}
+
+Findings wet_bounce(const std::vector<FinishedCase>& runs, const char* figure) {
+  Findings found;
+  std::vector<double> stokes;
+  for (const auto& run : runs) {
+    const Trajectory path = trajectory_of(run, 0);
+    const double before = -path.velocity.front().z, after = path.velocity.back().z;
+    stokes.push_back(stokes_number(run));
+    found.rows.push_back(
+        {.name = fmt::format("rebound over dry rebound at St = {:.3g} [-]", stokes.back()),
+         .reference = wet_rebound(stokes.back()),
+         .source = "Legendre et al. 2006: exp(-35/St), data of Joseph et al. 2001, Gondret et al. 2002",
+         .ours = after / before / run.input("grains.restitution"),
+         .band = Band::within_absolute(0.1),
+         .against = Against::experiment});
+  }
+  found.figures.push_back(
+      {figure,
+       "A steel sphere bounces off a wall in a liquid: speed of the rebound over that of a dry one. Line: "
+       "fit by Legendre et al. 2006.",
+       bounce_figure(found.rows, stokes)});
   return found;
 }
 
@@ -185,6 +239,29 @@ Findings incline(const std::vector<FinishedCase>& runs) {
                           .source = slides ? "g (sin b - mu cos b)" : "(5/7) g sin b",
                           .ours = acceleration(run),
                           .band = Band::within(0.005)});
+  }
+  return found;
+}
+
+Findings rolling_rest(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  for (const auto& run : runs) {
+    const double slope = run.input("box.slope"), mu = run.input("grains.rolling_friction"),
+                 g = run.input("box.gravity");
+    const Trajectory path = trajectory_of(run, 0);
+    const auto where = fmt::format("{:.0f} deg, rolling friction {:.2g}", degrees(slope), mu);
+    if (std::tan(slope) < mu)
+      found.rows.push_back({.name = fmt::format("way down {}: rests [d]", where),
+                            .reference = 0,
+                            .source = "rest where tan b < mu_r",
+                            .ours = (path.position.back().x - path.position.front().x) / run.input("grains.diameter"),
+                            .band = Band::within_absolute(0.001)});
+    else
+      found.rows.push_back({.name = fmt::format("acceleration down {}: rolls [m/s2]", where),
+                            .reference = 5.0 / 7 * g * (std::sin(slope) - mu * std::cos(slope)),
+                            .source = "(5/7) g (sin b - mu_r cos b)",
+                            .ours = acceleration(run),
+                            .band = Band::within(0.005)});
   }
   return found;
 }
@@ -248,7 +325,12 @@ std::vector<Rung> contact_rungs() {
       {"contact-foerster-acetate", "spheres of cellulose acetate strike a plate at many angles",
        [=](const auto& runs) { return foerster(runs, acetate); }, every_case},
       {"contact-incline", "a sphere is let go on an incline", incline, every_case},
+      {"contact-rolling-rest", "a sphere with rolling friction is let go on an incline", rolling_rest, every_case},
       {"contact-rolling-start", "a sphere is thrown along a plane without spin", rolling_start, every_case},
+      {"contact-wet-bounce", "a sphere bounces in a liquid, its restitution chosen by the Stokes number",
+       [](const auto& runs) { return wet_bounce(runs, "contact-wet-bounce"); }, every_case},
+      {"contact-film-bounce", "a sphere bounces in a liquid, slowed by the film that lubricates the contact",
+       [](const auto& runs) { return wet_bounce(runs, "contact-film-bounce"); }, every_case},
   };
 }
 
