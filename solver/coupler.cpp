@@ -93,7 +93,7 @@ struct Coupler::Parts {
         grid(given.grid),
         law(drag_law(given.drag)),
         fall_time(time_of_fall(given)),
-        dynamics(given.bed),
+        dynamics(given.bed, {given.terms.wet_restitution, given.terms.lubrication}),
         drag(grid),
         pressure(grid),
         before(grid),
