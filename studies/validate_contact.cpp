@@ -76,7 +76,7 @@ Findings restitution(const std::vector<FinishedCase>& runs) {
     const double asked = run.input("grains.restitution");
     found.rows.push_back({.name = fmt::format("restitution, asked for {:.2g} [-]", asked),
                           .reference = asked,
-                          .source = "the study file",
+                          .source = "grains.restitution of the study file",
                           .ours = head_on(run).restitution,
                           .band = Band::within_absolute(0.01)});
   }

@@ -2,6 +2,7 @@
 #include "studies/verification_document.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -20,6 +21,26 @@ std::string of_row(const ValidationRow& row, double number, bool with_sign) {
 
 std::string_view against(const ValidationRow& row) { return row.against == Against::equations ? "code" : "experiment"; }
 
+/// A picture in a report takes the page's style; alone in its file it brings its own.
+std::string standing_alone(const std::string& svg) {
+  constexpr std::string_view style =
+      "<style>svg{font:12px 'Liberation Sans','DejaVu Sans',sans-serif;fill:#333;background:#fff}"
+      ".grid{stroke:#dfe4e7}.fine{stroke:#eff2f3}.frame{fill:none;stroke:#7d8890}.axis{font-size:13px;fill:#22292e}"
+      ".heading{font-weight:600;fill:#22292e}</style>";
+  constexpr std::string_view opening = "<svg ";
+  const auto end = svg.find('>');
+  if (!svg.starts_with(opening) || end == svg.npos) return svg;
+  return fmt::format("<svg xmlns='http://www.w3.org/2000/svg' {}{}{}\n",
+                     svg.substr(opening.size(), end + 1 - opening.size()), style, svg.substr(end + 1));
+}
+
+/// A phrase as the beginning of a sentence.
+std::string capital(std::string_view phrase) {
+  std::string text(phrase);
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
 std::string table_of(const Findings& findings) {
   std::string text = "| | reference | ours | deviation | band | | against |\n|---|---|---|---|---|---|---|\n";
   for (const auto& row : findings.rows)
@@ -30,10 +51,9 @@ std::string table_of(const Findings& findings) {
 }
 
 std::string section_of(const RungResult& rung) {
-  auto text =
-      fmt::format("### {}\n\n{}{} ([study file](../studies/validation/{}.toml), {} case{}, {:.1f} core seconds).\n\n",
-                  rung.study, static_cast<char>(std::toupper(static_cast<unsigned char>(rung.what[0]))),
-                  rung.what.substr(1), rung.study, rung.cases, rung.cases == 1 ? "" : "s", rung.core_seconds);
+  auto text = fmt::format(
+      "### {}\n\n{} ([study file](../studies/validation/{}.toml), {} case{}, {:.1f} core seconds).\n\n", rung.study,
+      capital(rung.what), rung.study, rung.cases, rung.cases == 1 ? "" : "s", rung.core_seconds);
   if (!rung.failure.empty()) return text + fmt::format("**Not run to its end**: {}\n\n", rung.failure);
   text += table_of(rung.findings) + "\n";
   for (const auto& figure : rung.findings.figures)
@@ -84,11 +104,11 @@ std::vector<DocumentFile> verification_document(const std::vector<RungResult>& r
       group = rung.group;
       const auto named = std::ranges::find(validation_groups(), group, &ValidationGroup::name);
       body += fmt::format("## {}\n\n", group);
-      if (named != validation_groups().end()) body += fmt::format("Of {}.\n\n", named->what);
+      if (named != validation_groups().end()) body += fmt::format("{}.\n\n", capital(named->what));
     }
     body += section_of(rung);
     for (const auto& figure : rung.findings.figures)
-      files.push_back({fmt::format("verification/{}.svg", figure.name), figure.svg});
+      files.push_back({fmt::format("verification/{}.svg", figure.name), standing_alone(figure.svg)});
   }
   files.front().text += body;
   return files;

@@ -1,0 +1,42 @@
+// `bedload validate` as a user runs it: from any directory, leaving nothing behind.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/end_to_end/bedload_program.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace bedload {
+namespace {
+
+TEST(ValidateCommand, ClimbsAGroupInMemoryAndEndsWell) {
+  const TemporaryDirectory directory;
+  const auto outcome = bedload(directory.path(), {"validate", "contact", "--quick", "--json", "--cores", "2"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(json.at("pass"));
+  ASSERT_GE(json.at("rungs").size(), 10u);
+  for (const auto& rung : json.at("rungs"))
+    for (const auto& row : rung.at("rows")) EXPECT_TRUE(row.at("pass")) << row.dump();
+  for (const auto& left : std::filesystem::directory_iterator(directory.path()))
+    EXPECT_EQ(left.path().filename().string()[0], '.') << "only this test's own .out and .err: " << left.path();
+}
+
+TEST(ValidateCommand, RefusesAnUnknownGroupWithTheList) {
+  const TemporaryDirectory directory;
+  const auto outcome = bedload(directory.path(), {"validate", "contct"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("the groups are contact"), std::string::npos) << outcome.err;
+}
+
+TEST(ValidateCommand, ListsItsStudiesWithoutRunningThem) {
+  const TemporaryDirectory directory;
+  const auto outcome = bedload(directory.path(), {"validate", "onset", "--list"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("onset-pocket-triangular"), std::string::npos) << outcome.out;
+}
+
+}   // namespace
+}   // namespace bedload
