@@ -45,7 +45,7 @@ y = "periodic"
 gravity = "9.81 m/s2"
 
 [drive]
-kind    = "lid"                             # lid | pressure | none
+kind    = "lid"                             # lid | pressure | push | through_flow | none
 shields = {{ from = 0.06, ratio = 1.2, steps = 12 }}
 dwell   = "25 td"                           # per step; td = max(sqrt(d/((s-1) g)), d/U_t)
 
@@ -55,8 +55,10 @@ criterion = "flux"                          # flux | moving_fraction
 value     = 1e-2
 
 [models]
-drag  = "di_felice"                         # di_felice | schiller_naumann | stokes
-terms = "auto"                              # or a list: ["drag", "buoyancy", "pressure_gradient", "viscous_stress"]
+drag  = "di_felice"                         # or gidaspow, beetstra, tang, koch_hill, rong, ergun, schiller_naumann, stokes
+terms = "auto"                              # what the scene requires: `bedload plan` says which terms, and why; or a list,
+                                            # such as ["drag", "buoyancy", "pressure_gradient", "viscous_stress"]
+# strict = true                             # refuse a scene outside the range of its models
 
 [steps]
 dem   = "auto"                              # 0.2 Rayleigh times

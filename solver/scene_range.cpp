@@ -29,7 +29,6 @@ constexpr double shallow_bed = 5;     // d: creep reaches the bottom
 constexpr double repose = 25 * std::numbers::pi / 180;   // of smooth spheres 22-26 degrees
 constexpr double soft_overlap = 0.01;                    // of d
 constexpr double lift_reynolds = 200, spin_reynolds = 140;
-constexpr double thin_fluid = 100;   // s from which buoyancy is less than 1 % of the weight
 
 struct Facts {
   const Scene& scene;
@@ -217,17 +216,10 @@ void laws_of_lift(const Facts& f, Found& found) {
 
 void idle_drive(const Facts& f, Found& found) {
   const auto kind = f.scene.drive.kind;
-  const auto& terms = f.scene.terms;
-  if (f.grains.mobile && !terms.drag && (kind == Kind::lid || kind == Kind::pressure || kind == Kind::through_flow))
+  if (f.grains.mobile && !f.scene.terms.drag &&
+      (kind == Kind::lid || kind == Kind::pressure || kind == Kind::through_flow))
     found.push_back({"drive.kind", "the drive moves the fluid, but without drag the fluid moves no grain",
                      "add \"drag\" to models.terms, or terms = \"auto\""});
-  if (f.grains.mobile && kind == Kind::push && !terms.buoyancy && f.n.density_ratio < thin_fluid)
-    found.push_back(
-        {"drive.push.from",
-         fmt::format("a push counts in submerged weights, but without buoyancy grains weigh their whole weight, "
-                     "{:.3g} times as much",
-                     f.n.density_ratio / (f.n.density_ratio - 1)),
-         "add \"buoyancy\" to models.terms, or a fluid as thin as air"});
 }
 
 }   // namespace

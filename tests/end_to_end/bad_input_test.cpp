@@ -86,6 +86,29 @@ TEST_F(BadInput, KeyOfALaterVersion) {
        })
     expect_refused(tiny_study + table + line + "\n", 65, message);
 }
+TEST_F(BadInput, TermsThatContradictEachOther) {
+  expect_refused(tiny_study + "[models]\nterms = [\"drag\", \"wet_restitution\", \"lubrication\"]\n", 65,
+                 "tiny.toml:29:9: error: models.terms: wet_restitution and lubrication are both the film");
+  expect_refused(tiny_study + "[models]\nterms = [\"drag\", \"pressure_gradient\"]\n", 65, "both or neither");
+}
+TEST_F(BadInput, TermWithoutWhatItNeeds) {
+  expect_refused(tiny_study + "[models]\nterms = [\"shear_lift\"]\n", 65, "drag is left out\nhint: add \"drag\"");
+  expect_refused(with(tiny_study, "width = \"6 d\"", "width = \"6 d\"\nroughness = \"1 mm\""), 65, "box.roughness");
+}
+TEST_F(BadInput, UnknownTermOrLaw) {
+  expect_refused(tiny_study + "[models]\nterms = [\"drag\", \"shear_lft\"]\n", 65,
+                 "models.terms[2]: \"shear_lft\" is not known\nhint: did you mean \"shear_lift\"?");
+  expect_refused(tiny_study + "[models]\ndrag = \"koch_hil\"\n", 65, "did you mean \"koch_hill\"?");
+}
+TEST_F(BadInput, DragLawOutOfItsRangeWhereThatIsForbidden) {
+  const auto stokes = tiny_study + "[models]\ndrag = \"stokes\"\n";
+  expect_refused(stokes + "strict = true\n", 65, "tiny.toml:29:8: error: models.drag: ");
+  std::ofstream(here() / "tiny.toml") << stokes;
+  const auto plan = bedload(here(), {"plan", "tiny.toml"});
+  EXPECT_EQ(plan.code, 0) << plan.err;
+  EXPECT_TRUE(says(plan.out, "the drag law stokes is made for"));
+}
+
 TEST_F(BadInput, SpreadThatLeavesNoSmallestGrain) {
   expect_refused(with(tiny_study, "[bed]", "spread = 0.9\n\n[bed]"), 65,
                  "tiny.toml:12:10: error: grains.spread: 0.9 lets the smallest grain vanish");
@@ -143,8 +166,8 @@ TEST_F(BadInput, UnknownCommandAndOptionAndLaterCommand) {
 
 TEST_F(BadInput, CommandOfALaterVersion) {
   std::ofstream(here() / "tiny.toml") << tiny_study;
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"view"}, {"prune"}, {"doctor"}, {"validate"}, {"trade"}, {"plan", "--probe"}}) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"view"}, {"prune"}, {"doctor"}, {"trade"}, {"plan", "--probe"}}) {
     auto arguments = words;
     arguments.push_back("tiny.toml");
     const auto later = bedload(here(), arguments);

@@ -289,15 +289,5 @@ TEST(SceneRange, TellsWhenCellsAreTooSmallForLoneGrains) {
   EXPECT_TRUE(range_problems_of(scene).empty());
 }
 
-// A push of one submerged weight is 0.6 of the weight that the grain has without buoyancy.
-TEST(SceneRange, TellsWhenAPushAndAWeightDoNotMatch) {
-  auto scene = settling_sphere();
-  scene.drive = {.kind = FlowRamp::Kind::push, .quantity = FlowRamp::Quantity::push, .levels = {0.1}, .dwell = 1};
-  EXPECT_TRUE(range_problems_of(scene).empty());
-  scene.terms.buoyancy = false;
-  ASSERT_EQ(range_problems_of(scene).size(), 1u);
-  EXPECT_NE(range_problems_of(scene)[0].message.find("1.5 times"), std::string::npos);
-}
-
 }   // namespace
 }   // namespace bedload

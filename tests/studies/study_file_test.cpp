@@ -98,6 +98,20 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"[drive]", "[models]\nterms = [\"drag\", \"viscous_torqe\"]\n[drive]",
                 "did you mean \"viscous_torque\"?"},
         Refusal{"[drive]", "[models]\nterms = [\"drag\", \"viscous_stress\"]\n[drive]", "both or neither"},
+        Refusal{"[drive]", "[models]\nterms = [\"drag\", \"wet_restitution\", \"lubrication\"]\n[drive]",
+                "study.toml:23:9: error: models.terms: wet_restitution and lubrication are both the film"},
+        Refusal{"[drive]", "[models]\nterms = [\"buoyancy\", \"shear_lift\"]\n[drive]",
+                "models.terms: shear_lift works on the drag of a grain, and drag is left out\nhint: add \"drag\""},
+        Refusal{"[drive]", "[models]\nterms = [\"viscous_torque\"]\n[drive]", "viscous_torque works on the drag"},
+        Refusal{"spread = 0.05", "friction = 0\n[models]\nterms = [\"drag\", \"magnus\"]",
+                "magnus is the force of a grain's spin, and nothing turns these"},
+        Refusal{"height = \"13 d\"", "height = \"13 d\"\nroughness = \"1 mm\"",
+                "study.toml:21:13: error: box.roughness: a rough wall has meaning only for a turbulent flow"},
+        Refusal{"[drive]", "[models]\nstrict = \"yes\"\n[drive]", "models.strict: 'yes' is not true or false"},
+        Refusal{"[drive]", "[models]\nstrict = true\ndrag = \"stokes\"\n[drive]",
+                "study.toml:24:8: error: models.drag: grains come to Re = "},
+        Refusal{"\"1.0e-5 m2/s\"", "\"1.0e-6 m2/s\"\n[models]\nstrict = true\nterms = [\"drag\", \"buoyancy\"]",
+                "study.toml:6:13: error: fluid.viscosity: this laminar scene is not physical"},
         Refusal{"[drive]", "[models]\ndrag = \"betstra\"\n[drive]", "did you mean \"beetstra\"?"},
         Refusal{"[drive]", "[models]\naccuracy = { target = \"5 %\" }\n[drive]", "models.accuracy"},
         Refusal{"spread = 0.05", "rolling_friction = -0.1", "zero or greater"},
@@ -125,6 +139,21 @@ INSTANTIATE_TEST_SUITE_P(
                 "run.wall_limit is not in this version (a wall time limit per attempt)"},
         Refusal{"name = \"screening\"", "name = \"a/b\"", "cannot be the name of a result directory"},
         Refusal{"name = \"screening\"", "bed_only = true", "bed_only is not a key"}));
+
+TEST(StudyFile, IsStrictOnlyWhereItSaysSo) {
+  const auto stokes = [](const std::string& strict) {
+    return complaint(with(good_study, "[drive]", "[models]\n" + strict + "drag = \"stokes\"\n[drive]"));
+  };
+  EXPECT_EQ(stokes(""), "");
+  EXPECT_EQ(stokes("strict = false\n"), "");
+  EXPECT_TRUE(says(stokes("strict = true\n"), "the drag law stokes is made for Re up to 0.1"));
+  EXPECT_TRUE(says(stokes("strict = true\n"), "made for 0.995 and more"));
+}
+
+TEST(StudyFile, TakesAnEmptyListOfTermsAsDryGrains) {
+  const auto cases = unfold(parse_study(with(good_study, "[drive]", "[models]\nterms = []\n[drive]"), "study.toml"));
+  for (const auto& named : named_terms) EXPECT_FALSE(cases[0].scene.terms.*named.term) << named.name;
+}
 
 TEST(StudyFile, TakesAListOfListsAsTheAxisOfTerms) {
   const auto study = parse_study(

@@ -61,6 +61,42 @@ TEST(Study, KeepsIdsWhenTheRampGrowsLonger) {
   EXPECT_EQ(ids_of(good_study), ids_of(with(good_study, "steps = 12", "steps = 20")));
 }
 
+/// The study with the terms of its first case written out.
+std::string written_out(const std::string& text) {
+  const auto cases = cases_of(text);
+  const auto& names = std::get<std::vector<std::string>>(cases[0].inputs.values.at("models.terms"));
+  std::string list;
+  for (const auto& name : names) list += (list.empty() ? "\"" : ", \"") + name + "\"";
+  return with(text, "[drive]", "[models]\nterms = [" + list + "]\n[drive]");
+}
+
+TEST(Study, CountsAutomaticTermsAsTheListTheyStandFor) {
+  const auto one = with(with(good_study, "[\"0.5 mm\", \"0.6 mm\"]", "\"0.5 mm\""), "[\"2000 kg/m3\", \"3000 kg/m3\"]",
+                        "\"2000 kg/m3\"");
+  EXPECT_TRUE(cases_of(one)[0].scene.terms.viscous_torque);
+  EXPECT_EQ(ids_of(one), ids_of(written_out(one)));
+}
+
+// Terms are chosen at the onset to be expected, not at the end of the ramp: the last level here is 2 m/s.
+TEST(Study, ChoosesTermsWhateverTheEndOfARamp) {
+  const auto by_speed = [](const std::string& levels) {
+    return ids_of(with(good_study, "shields = { from = 0.06, ratio = 1.2, steps = 12 }", "speed = " + levels));
+  };
+  EXPECT_EQ(by_speed("{ from = \"1 mm/s\", ratio = 2, steps = 1 }"),
+            by_speed("{ from = \"1 mm/s\", ratio = 2, steps = 12 }"));
+  const auto fast = with(good_study, "shields = { from = 0.06, ratio = 1.2, steps = 12 }", "speed = \"2 m/s\"");
+  EXPECT_TRUE(cases_of(fast)[0].scene.terms.magnus);
+}
+
+TEST(Study, LeavesStrictnessOutOfTheIdentity) {
+  EXPECT_EQ(ids_of(good_study), ids_of(with(good_study, "[drive]", "[models]\nstrict = false\n[drive]")));
+}
+
+TEST(Study, SharesABedWhateverTheTerms) {
+  const auto dry = cases_of(with(good_study, "[drive]", "[models]\nterms = []\n[drive]"));
+  EXPECT_EQ(cases_of(good_study)[0].bed_id, dry[0].bed_id);
+}
+
 TEST(Study, KeepsIdsWhenOnlyTheWayOfRunningOrTheUnitsChange) {
   EXPECT_EQ(ids_of(good_study), ids_of(with(good_study, "[drive]", "[run]\ncores = 2\n[drive]")));
   EXPECT_EQ(ids_of(good_study), ids_of(with(good_study, "name = \"screening\"", "name = \"other\"")));
