@@ -11,10 +11,12 @@ namespace {
 
 Vec3 removed_at(const FlowAtGrains& flow, std::size_t p) { return flow.removed.empty() ? Vec3{} : flow.removed[p]; }
 
-/// Undisturbed slip u - v: what the coefficient of drag has been corrected for, the lift is too.
-Vec3 undisturbed_slip(const FlowAtGrains& flow, const Grains& grains, std::size_t p) {
-  const Vec3 slip = flow.velocity[p] - grains.velocity[p], removed = removed_at(flow, p);
-  return {slip.x / (1 - removed.x), slip.y / (1 - removed.y), slip.z / (1 - removed.z)};
+/// 1/(1 - removed): undisturbed slip over the sampled one. Also what must be applied of a force to be felt as one: the flow
+/// that its reaction makes at the grain takes the rest back as drag.
+Vec3 without_own_flow(Vec3 removed) { return {1 / (1 - removed.x), 1 / (1 - removed.y), 1 / (1 - removed.z)}; }
+
+Vec3 wall_velocity(const Surroundings& around, const NearWall& wall) {
+  return {wall.axis == 2 && wall.upper ? around.lid_speed : 0, 0, 0};
 }
 
 /// The wall near a grain, and how far it counts: not among other grains.
@@ -29,7 +31,9 @@ std::optional<WallThere> wall_at(const StaggeredGrid& grid, Vec3 position, doubl
   return WallThere{*wall, share};
 }
 
-void add_wall_drag(const Surroundings& around, const WallThere& there, double d, std::size_t p, FlowAtGrains& flow) {
+/// What the wall makes of the drag, in which the flow of p is changed.
+WallDrag add_wall_drag(const Surroundings& around, const WallThere& there, double d, std::size_t p,
+                       FlowAtGrains& flow) {
   const Vec3 edges = around.grid.h, removed = removed_at(flow, p);
   const int n = there.wall.axis;
   const double tangential = std::sqrt(edges[(n + 1) % 3] * edges[(n + 2) % 3]);
@@ -40,9 +44,10 @@ void add_wall_drag(const Surroundings& around, const WallThere& there, double d,
     reflected[c] = multiplier * resolved_reflection(c != n, there.wall.distance, d, kappa, edges[n], tangential);
   }
   const WallDrag factors = wall_drag(there.wall, d, removed, reflected, there.share);
-  const Vec3 wall_velocity{n == 2 && there.wall.upper ? around.lid_speed : 0, 0, 0};
-  flow.force[p] += scaled(flow.drag[p], scaled(factors.flow, flow.velocity[p] - wall_velocity));
+  const Vec3 relative = flow.velocity[p] - wall_velocity(around, there.wall);
+  flow.force[p] += scaled(flow.drag[p], scaled(factors.flow, relative));
   flow.drag[p] = scaled(flow.drag[p], factors.slip);
+  return factors;
 }
 
 }   // namespace
@@ -60,17 +65,26 @@ void add_explicit_forces(const Surroundings& around, const Grains& grains, const
     const double d = grains.diameter[p], nu = around.viscosity;
     std::optional<WallThere> there;
     if (terms.wall_forces) there = wall_at(around.grid, grains.position[p], flow.packing.others[p]);
-    const Vec3 slip = undisturbed_slip(flow, grains, p), vorticity = flow.vorticity[p];
-    if (there) add_wall_drag(around, *there, d, p, flow);
-    Vec3 lift;
-    if (terms.shear_lift) {
-      lift = saffman_mei(slip, vorticity, d, nu);
-      if (there) lift += there->share * (shear_lift_near_wall(slip, vorticity, d, nu, there->wall.distance) - lift);
+    const Vec3 vorticity = flow.vorticity[p];
+    Vec3 applied = without_own_flow(removed_at(flow, p));
+    Vec3 slip = scaled(applied, flow.velocity[p] - grains.velocity[p]), lift;   // undisturbed
+    if (there) {
+      const WallDrag drag = add_wall_drag(around, *there, d, p, flow);
+      const Vec3 wall = wall_velocity(around, there->wall), grain = grains.velocity[p] - wall;
+      const Vec3 along = drag.undisturbed(flow.velocity[p] - wall, grain);
+      applied = drag.applied, slip = along - grain;
+      if (terms.shear_lift) {
+        Vec3 normal;
+        normal[there->wall.axis] = there->wall.upper ? -1 : 1;
+        const Vec3 at_wall = cross(normal, along) / there->wall.distance;
+        lift = there->share * shear_lift_near_wall(slip, vorticity, at_wall, d, nu, there->wall.distance);
+      }
     }
+    if (terms.shear_lift) lift += (1 - (there ? there->share : 0)) * saffman_mei(slip, vorticity, d, nu);
     if (terms.magnus) lift += magnus(slip, grains.spin[p] - 0.5 * vorticity, d, nu);
     if (terms.model_b()) lift = lift / std::clamp(flow.void_fraction[p], 0.26, 1.0);
     const Vec3 beta = flow.drag[p];
-    flow.force[p] += lift_force(slip, lift, std::min({beta.x, beta.y, beta.z}));
+    flow.force[p] += scaled(applied, lift_force(slip, lift, std::min({beta.x, beta.y, beta.z})));
     if (terms.exposure) flow.force[p] += scaled(beta, exposure_velocity(level[p], d, vorticity));
   }
 }

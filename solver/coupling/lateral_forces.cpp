@@ -36,13 +36,13 @@ double wall_lift_coefficient(double gap, double re) {
   return touching * std::exp(-0.5 * gap * std::pow(re / 250, 4.0 / 3)) * (decay - reversal);
 }
 
-Vec3 shear_lift_near_wall(Vec3 slip, Vec3 vorticity, double d, double viscosity, double distance) {
+Vec3 shear_lift_near_wall(Vec3 slip, Vec3 vorticity, Vec3 at_wall, double d, double viscosity, double distance) {
   const Vec3 far = saffman_mei(slip, vorticity, d, viscosity);
   const double gap = std::max(distance / d - 0.5, 0.0);
   if (gap >= 1) return far;
-  const double re = std::min(norm(vorticity) * distance * d / viscosity, 200.0);
+  const double re = std::min(norm(at_wall) * distance * d / viscosity, 200.0);
   // U^2 is written slip x (shear x distance): the two are one for a sphere at rest, for which the coefficient was made.
-  const Vec3 near = pi / 8 * d * d * distance * wall_lift_coefficient(gap, re) * vorticity;
+  const Vec3 near = pi / 8 * d * d * distance * wall_lift_coefficient(gap, re) * at_wall;
   return (1 - gap) * near + gap * far;
 }
 

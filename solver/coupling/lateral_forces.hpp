@@ -22,9 +22,10 @@ Vec3 magnus(Vec3 slip, Vec3 relative_spin, double diameter, double viscosity);
 /// Re up to 200. For Re -> 0 at the wall it is Leighton & Acrivos 1985: 9.22 gdot^2 a^4.
 double wall_lift_coefficient(double gap, double re);
 
-/// Lift vector near a plane wall, `distance` from centre to wall [m]: that of Zeng et al. for a sphere that touches, that of
+/// Lift vector near a plane wall, `distance` from centre to wall [m]: that of Zeng et al. for a sphere that touches, in the
+/// shear `at_wall` = (normal into the fluid) x (u - u_wall)/distance, which is the vorticity of a shear along the wall; that of
 /// saffman_mei one diameter away, weighted linearly between (an engineering choice).
-Vec3 shear_lift_near_wall(Vec3 slip, Vec3 vorticity, double diameter, double viscosity, double distance);
+Vec3 shear_lift_near_wall(Vec3 slip, Vec3 vorticity, Vec3 at_wall, double diameter, double viscosity, double distance);
 
 /// w x k, k cut to half of `drag` (force per slip and fluid density, its least axis [m3/s]). Within the ranges of the laws k
 /// stays below that (0.15 of the drag for saffman_mei, 0.44 at a wall). Beyond - a grain that goes along with a strong shear -

@@ -71,11 +71,14 @@ WallDrag wall_drag(const NearWall& wall, double diameter, Vec3 removed, Vec3 ref
   WallDrag drag;
   for (int c = 0; c < 3; ++c) {
     const bool along = c != wall.axis;
-    const double moving = 1 + share * ((along ? drag_along_wall(k) : drag_towards_wall(k)) - 1);
-    const double sheared = along ? 1 + share * (shear_drag_at_wall(k) - 1) : moving;
-    const double scale = (1 - removed[c]) / (1 + sheared * (share * reflected[c] - removed[c]));
-    drag.slip[c] = moving * scale;
-    drag.flow[c] = (sheared - moving) * scale;
+    const double target = along ? drag_along_wall(k) : drag_towards_wall(k);
+    const double at_rest = along ? shear_drag_at_wall(k) : std::min(target, 1 + 9.0 / 8 * k);
+    const double moving = 1 + share * (target - 1), resting = 1 + share * (at_rest - 1);
+    const double own = share * reflected[c] - removed[c];   // R - kappa
+    drag.applied[c] = 1 / (1 + resting * own);
+    drag.reflex[c] = moving * own;
+    drag.slip[c] = moving * (1 - removed[c]) * drag.applied[c];
+    drag.flow[c] = (resting - moving) * (1 - removed[c]) * drag.applied[c];
   }
   return drag;
 }

@@ -56,18 +56,21 @@ double mean_response(bool along, double diameter, double normal, double tangenti
 double resolved_reflection(bool along, double distance, double diameter, double kappa, double normal,
                            double tangential);
 
-/// Force on the grain = beta [slip (u - v) + flow (u - u_wall)], axis by axis, beta as without a wall.
+/// A grain's whole drag near a wall of whose effect the grid already shows a part, axis by axis.
 struct WallDrag {
-  Vec3 slip{1, 1, 1}, flow{};
+  Vec3 slip{1, 1, 1}, flow{};        // force on the grain = beta [slip (u - v) + flow (u - u_wall)], u as sampled
+  Vec3 applied{1, 1, 1}, reflex{};   // what must be applied of any other force to be felt as one; and:
+  /// Velocity of the fluid that would be there without the grain. All velocities relative to the wall's.
+  Vec3 undisturbed(Vec3 sampled, Vec3 grain) const { return scaled(applied, sampled + scaled(reflex, grain)); }
 };
 
-/// Factors that make a grain's whole drag right near a wall of whose effect the grid already shows a part. In units of the
-/// lone grain's drag, f = F_s u - F_t v is wanted, u undisturbed, F_s = shear_drag_at_wall and F_t = drag_along_wall (both
-/// drag_towards_wall along the normal). The flow sampled is u + (R - kappa) f, R the resolved reflection, so that
-///   f = (F_s u_sampled - F_t v)/(1 + F_s (R - kappa)).
+/// In units of the lone grain's drag, f = F_s u - F_t v + f_e is wanted, u undisturbed, f_e any other force. F_t is
+/// drag_along_wall or drag_towards_wall; F_s along the wall shear_drag_at_wall, towards it the first image's 1 + 9/8 k (at most F_t).
+/// The flow sampled is u + (R - kappa) f, R the resolved reflection, so that
+///   f = (F_s u_sampled - F_t v + f_e)/(1 + F_s (R - kappa)).
 /// reflected: R. removed: the part of kappa for which beta is corrected already, by 1/(1 - removed); 0 without such a
-/// correction. Both per axis and times the drag law's multiplier. share: loneness of the grain, by which all
-/// this is blended in.
+/// correction. Both per axis and times the drag law's multiplier. share: loneness of the grain, by which all this is
+/// blended in.
 WallDrag wall_drag(const NearWall&, double diameter, Vec3 removed, Vec3 reflected, double share);
 
 }   // namespace bedload

@@ -116,7 +116,7 @@ TEST(WallLift, IsLeightonAndAcrivosForASlowSphereAtTheWall) {
   // At rest on a wall, u = rate z: lift 9.22 gdot^2 a^4.
   const double rate = 1e-2, a = 0.5 * d;
   const Vec3 slip{rate * a, 0, 0};
-  const Vec3 lift = cross(slip, shear_lift_near_wall(slip, vorticity_of_shear(rate), d, nu, a));
+  const Vec3 lift = cross(slip, shear_lift_near_wall(slip, {}, vorticity_of_shear(rate), d, nu, a));
   EXPECT_NEAR(lift.z / (9.22 * rate * rate * a * a * a * a), 1, 0.01);
   EXPECT_EQ(lift.x, 0);
 }
@@ -130,7 +130,7 @@ TEST(WallLift, GivesZengsCoefficients) {
 
 TEST(WallLift, GoesOverToShearLiftOneDiameterAway) {
   const Vec3 slip{1e-2, 0, 0}, vorticity = vorticity_of_shear(20);
-  const auto lift = [&](double z) { return cross(slip, shear_lift_near_wall(slip, vorticity, d, nu, z)).z; };
+  const auto lift = [&](double z) { return cross(slip, shear_lift_near_wall(slip, vorticity, vorticity, d, nu, z)).z; };
   EXPECT_EQ(lift(1.5 * d), saffman_force(slip, vorticity).z);
   EXPECT_EQ(lift(3 * d), saffman_force(slip, vorticity).z);
   for (double z = 0.4 * d; z < 1.6 * d; z += 0.01 * d) {
@@ -168,7 +168,7 @@ TEST(LiftForce, IsNotCutWithinTheRangeOfTheLaws) {
     }
   for (double re = 1e-3; re < 200; re *= 1.5) {   // at rest on a wall
     const Vec3 slip{re * nu / d, 0, 0}, vorticity = vorticity_of_shear(2 * slip.x / d);
-    const Vec3 k = shear_lift_near_wall(slip, vorticity, d, nu, 0.5 * d);
+    const Vec3 k = shear_lift_near_wall(slip, vorticity, vorticity, d, nu, 0.5 * d);
     const double drag = 3 * pi * nu * d * SchillerNaumann{}.multiplier(1, re);
     EXPECT_EQ(lift_force(slip, k, drag), cross(slip, k)) << re;
   }
