@@ -5,6 +5,12 @@
 
 namespace bedload {
 
+/// Grains lie in rows of four numbers, which are loaded and stored whole.
+using Row = double __attribute__((vector_size(32), may_alias));
+
+inline Row load_row(const double* at) { return *static_cast<const Row*>(__builtin_assume_aligned(at, 32)); }
+inline void store_row(double* at, Row row) { *static_cast<Row*>(__builtin_assume_aligned(at, 32)) = row; }
+
 /// A pair visits two grains far apart in memory: one block of 96 bytes each costs fewer cache lines than nine arrays.
 /// Three rows of four numbers, as the contact pass loads them.
 struct alignas(32) Body {
@@ -23,9 +29,14 @@ struct alignas(32) Load {
   double unused = 0;
   Vec3 torque;   // [N m]
   double unused_too = 0;
-
-  Load& operator+=(const Load& b) { return force += b.force, torque += b.torque, *this; }
 };
 static_assert(sizeof(Load) == 64);
+
+/// Adds a load to a sum, and clears it for the next step.
+inline void book(Load& load, Load& sum) noexcept {
+  store_row(&sum.force.x, load_row(&sum.force.x) + load_row(&load.force.x));
+  store_row(&sum.torque.x, load_row(&sum.torque.x) + load_row(&load.torque.x));
+  store_row(&load.force.x, Row{}), store_row(&load.torque.x, Row{});
+}
 
 }   // namespace bedload

@@ -20,12 +20,7 @@ struct alignas(64) PairBlock {
   Lane arm_a, arm_b;                    // lever arms [m]
 };
 
-// Grains lie in rows of four numbers, the law wants pairs side by side: rows are loaded whole and turned in registers.
-using Row = double __attribute__((vector_size(32), may_alias));
-
-inline Row load_row(const double* at) { return *static_cast<const Row*>(__builtin_assume_aligned(at, 32)); }
-inline void store_row(double* at, Row row) { *static_cast<Row*>(__builtin_assume_aligned(at, 32)) = row; }
-
+// The law wants pairs side by side: rows are turned in registers.
 inline void store_columns(const Row (&row)[4], double* x, double* y, double* z, double* fourth) {
   const Row ab02 = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6);
   const Row ab13 = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7);

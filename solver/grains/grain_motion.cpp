@@ -12,8 +12,7 @@ void move_bodies(std::span<Body> bodies, std::span<Load> loads, std::span<const 
       b.spin += (dt * b.inverse_inertia) * loads[i].torque;
       b.position += dt * b.velocity;
     }
-    sums[i] += loads[i];
-    loads[i] = {};
+    book(loads[i], sums[i]);
   }
 }
 

@@ -17,16 +17,20 @@ Grains resting_sphere(const BedScene& scene, double normal_gravity) {
   return grains;
 }
 
-/// Acceleration down a slope, from the speed gained over 50 ms.
-double acceleration_down(double slope, double friction) {
+/// Acceleration down a slope, from the speed gained over 50 ms, once springs have bent.
+double acceleration_down(double slope, double friction, double rolling_friction = 0) {
   BedScene scene = grain_scene(Side::periodic, Side::wall);
   scene.grains.friction = friction;
+  scene.grains.rolling_friction = rolling_friction;
   Grains grains = resting_sphere(scene, g * std::cos(slope));
   GrainDynamics dynamics(scene);
   ContactHistory contacts;
   const int steps = static_cast<int>(0.05 / scene.dem_step);
-  coast(dynamics, grains, contacts, scene.dem_step, steps, {g * std::sin(slope), 0, -g * std::cos(slope)});
-  return grains.velocity[0].x / (steps * scene.dem_step);
+  const Vec3 pull{g * std::sin(slope), 0, -g * std::cos(slope)};
+  coast(dynamics, grains, contacts, scene.dem_step, steps, pull);
+  const double before = grains.velocity[0].x;
+  coast(dynamics, grains, contacts, scene.dem_step, steps, pull);
+  return (grains.velocity[0].x - before) / (steps * scene.dem_step);
 }
 
 TEST(SphereOnAnIncline, SlidesWhereTheSlopeIsSteeperThanSevenHalvesOfFriction) {
@@ -40,6 +44,18 @@ TEST(SphereOnAnIncline, RollsWhereItIsNot) {
     const double exact = 5.0 / 7 * g * std::sin(slope);
     EXPECT_NEAR(acceleration_down(slope, 0.4), exact, 0.005 * exact) << slope;
   }
+}
+
+// m a = m g sin b - f, 2/5 m R a = f R - mu_r m g R cos b.
+TEST(SphereOnAnIncline, RollsMoreSlowlyAgainstRollingFriction) {
+  for (const double rolling : {0.02, 0.1, 0.25}) {
+    const double slope = 0.3, exact = 5.0 / 7 * g * (std::sin(slope) - rolling * std::cos(slope));
+    EXPECT_NEAR(acceleration_down(slope, 0.4, rolling), exact, 0.005 * exact) << rolling;
+  }
+}
+
+TEST(SphereOnAnIncline, RestsWhereTheSlopeIsLessThanRollingFriction) {
+  EXPECT_NEAR(acceleration_down(0.3, 0.4, 0.32), 0, 1e-8);   // tan .3 = .309
 }
 
 TEST(SphereOnAPlane, EndsRollingAtFiveSeventhsOfItsSpeedAfterItsTime) {

@@ -210,16 +210,20 @@ TEST(BedPacking, FillsABoxWithoutFloorEvenly) {
 }
 
 TEST(BedPacking, HandsOutIdsInSpaceWithoutChangingTheBed) {
-  const BedScene scene = bed_scene(200);
+  BedScene scene = bed_scene(200);
+  scene.grains.rolling_friction = 0.1;   // another spring to be renamed
   Bed bed;
   bed.grains = place_grains(scene);
   BedPacking packing(scene);
   for (int n = 0; n < 60; ++n) packing.advance(bed.grains, bed.contacts);   // still moving: springs at work
+  bed.contacts.damping.resize(bed.contacts.size());
+  for (std::size_t k = 0; k < bed.contacts.size(); ++k) bed.contacts.damping[k] = norm2(bed.contacts.spring[k]);
   Bed renamed = bed;
   for (std::size_t i = 0; i < 200; ++i) renamed.grains.travel[i] = static_cast<double>(i);   // to know them again
   renumber_in_space(scene, renamed.grains, renamed.contacts);
   for (std::size_t k = 0; k < renamed.contacts.size(); ++k) {
     EXPECT_LT(renamed.contacts.lower[k], renamed.contacts.higher[k]);
+    EXPECT_EQ(renamed.contacts.damping[k], norm2(renamed.contacts.spring[k])) << "each has kept its own";
     if (k == 0) continue;
     EXPECT_LT(std::pair(renamed.contacts.lower[k - 1], renamed.contacts.higher[k - 1]),
               std::pair(renamed.contacts.lower[k], renamed.contacts.higher[k]));

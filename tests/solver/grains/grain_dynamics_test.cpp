@@ -137,10 +137,10 @@ TEST(GrainDynamics, NeverMoveAFixedGrain) {
 
 /// What a run of 200 x 10 steps under a strong pull ends in, with something done to the dynamics between its calls.
 template <class Meddle>
-std::pair<Grains, ContactHistory> agitate(const BedScene& scene, Meddle&& meddle) {
+std::pair<Grains, ContactHistory> agitate(const BedScene& scene, ContactTerms terms, Meddle&& meddle) {
   Grains grains = agitated_grains(scene, 170);
   ContactHistory contacts;
-  auto dynamics = std::make_unique<GrainDynamics>(scene);
+  auto dynamics = std::make_unique<GrainDynamics>(scene, terms);
   const PeriodicBox box(scene);
   for (int n = 0; n < 200; ++n) {
     coast(*dynamics, grains, contacts, scene.dem_step, 10, {3, 0, -30});
@@ -153,25 +153,38 @@ std::pair<Grains, ContactHistory> agitate(const BedScene& scene, Meddle&& meddle
 TEST(GrainDynamics, GiveTheSameBitsWheneverTheirListsAreMade) {
   BedScene scene = grain_scene(Side::periodic, Side::wall);
   scene.length = {8e-3, 8e-3, 10e-3};
-  const auto straight = agitate(scene, [](auto&) {});
-  const auto amnesic = agitate(scene, [](auto& dynamics) { dynamics->forget(); });
-  const auto replaced = agitate(scene, [&](auto& dynamics) { dynamics = std::make_unique<GrainDynamics>(scene); });
-  EXPECT_GT(straight.second.size(), 100u);
-  EXPECT_TRUE(straight == amnesic);
-  EXPECT_TRUE(straight == replaced);
+  scene.fluid.viscosity = 1e-5;
+  for (const ContactTerms terms : all_contact_terms)
+    for (const double rolling : {0.0, 0.2}) {
+      scene.grains.rolling_friction = rolling;
+      const auto straight = agitate(scene, terms, [](auto&) {});
+      const auto amnesic = agitate(scene, terms, [](auto& dynamics) { dynamics->forget(); });
+      int call = 0;
+      const auto replaced = agitate(scene, terms, [&](auto& dynamics) {
+        if (++call % 20 == 0) dynamics = std::make_unique<GrainDynamics>(scene, terms);
+      });
+      EXPECT_GT(straight.second.size(), 100u);
+      EXPECT_EQ(straight.second.damping.size(), terms.wet_restitution ? straight.second.size() : 0);
+      EXPECT_EQ(straight.second.rolling.size(), rolling > 0 ? straight.second.size() : 0);
+      EXPECT_TRUE(straight == amnesic);
+      EXPECT_TRUE(straight == replaced);
+    }
 }
 
 TEST(GrainDynamics, GiveTheSameBitsInOneCallOrMany) {
   BedScene scene = grain_scene(Side::periodic, Side::wall);
   scene.length = {8e-3, 8e-3, 10e-3};
-  Grains together = agitated_grains(scene, 170), apart = together;
-  ContactHistory contacts_together, contacts_apart;
-  GrainDynamics one(scene), many(scene);
-  coast(one, together, contacts_together, scene.dem_step, 300);
-  for (int n = 0; n < 300; ++n) coast(many, apart, contacts_apart, scene.dem_step), many.forget();
-  EXPECT_TRUE(together.position == apart.position && together.velocity == apart.velocity &&
-              together.spin == apart.spin);
-  EXPECT_TRUE(contacts_together == contacts_apart);
+  scene.grains.rolling_friction = 0.1;
+  for (const ContactTerms terms : all_contact_terms) {
+    Grains together = agitated_grains(scene, 170), apart = together;
+    ContactHistory contacts_together, contacts_apart;
+    GrainDynamics one(scene, terms), many(scene, terms);
+    coast(one, together, contacts_together, scene.dem_step, 300);
+    for (int n = 0; n < 300; ++n) coast(many, apart, contacts_apart, scene.dem_step), many.forget();
+    EXPECT_TRUE(together.position == apart.position && together.velocity == apart.velocity &&
+                together.spin == apart.spin);
+    EXPECT_TRUE(contacts_together == contacts_apart);
+  }
 }
 
 TEST(GrainDynamics, CollideAcrossAPeriodicSeamAsAnywhereElse) {
@@ -232,25 +245,65 @@ TEST(GrainDynamics, AreDraggedByALidButNotByAFreeSurface) {
   }
 }
 
-TEST(GrainDynamics, StandExtremeFrictionAndRestitution) {
+/// Runs grains in a closed box without a source of energy; the most that they have at any time, per that at the start.
+double most_energy(const BedScene& scene, ContactTerms terms, Grains grains, double dt) {
+  const double before = kinetic_energy(grains);
+  GrainDynamics dynamics(scene, terms);
+  ContactHistory contacts;
+  double most = 0, deepest = 0;
+  for (int n = 0; n < 500; ++n) {
+    deepest = std::max(deepest, coast(dynamics, grains, contacts, dt, 10).deepest_overlap);
+    most = std::max(most, kinetic_energy(grains));
+  }
+  EXPECT_LT(deepest, 0.2);
+  return most / before;
+}
+
+TEST(GrainDynamics, KeepTheirEnergyInElasticCollisionsWithoutFriction) {
   BedScene scene = grain_scene(Side::wall, Side::wall);
   scene.length = {6e-3, 6e-3, 10e-3};
-  for (const double friction : {0.0, 1.0})
-    for (const double restitution : {0.0, 1.0}) {
-      scene.grains.friction = friction, scene.grains.restitution = restitution;
-      Grains grains = agitated_grains(scene, 100);
-      const double dt = 0.3 * rayleigh_time(0.6e-3, 2500, 1e6, 0.3), before = kinetic_energy(grains);
-      GrainDynamics dynamics(scene);
-      ContactHistory contacts;
-      double deepest = 0;
-      for (int n = 0; n < 500; ++n)
-        deepest = std::max(deepest, coast(dynamics, grains, contacts, dt, 10).deepest_overlap);
-      EXPECT_LT(deepest, 0.2) << friction << " " << restitution;
-      EXPECT_LE(kinetic_energy(grains), before * 1.01) << friction << " " << restitution;
-      if (friction == 0 && restitution == 1) {
-        EXPECT_NEAR(kinetic_energy(grains), before, 0.05 * before);
+  scene.grains.friction = 0, scene.grains.restitution = 1;
+  Grains grains = agitated_grains(scene, 100);
+  const double before = kinetic_energy(grains);
+  GrainDynamics dynamics(scene);
+  ContactHistory contacts;
+  coast(dynamics, grains, contacts, 0.3 * rayleigh_time(0.6e-3, 2500, 1e6, 0.3), 5000);
+  EXPECT_NEAR(kinetic_energy(grains), before, 0.05 * before);
+}
+
+TEST(GrainDynamics, MakeNoEnergyAtExtremeFrictionAndRestitution) {
+  BedScene scene = grain_scene(Side::wall, Side::wall);
+  scene.length = {6e-3, 6e-3, 10e-3};
+  const double dt = 0.3 * rayleigh_time(0.6e-3, 2500, 1e6, 0.3);
+  for (const ContactTerms terms : all_contact_terms)
+    for (const double friction : {0.0, 1.0})
+      for (const double rolling : {0.0, 1.0})
+        for (const double restitution : {0.0, 1.0}) {
+          scene.grains.friction = friction, scene.grains.restitution = restitution;
+          scene.grains.rolling_friction = rolling;
+          EXPECT_LE(most_energy(scene, terms, agitated_grains(scene, 100), dt), 1.01)
+              << friction << " " << rolling << " " << restitution;
+        }
+}
+
+TEST(GrainDynamics, MakeNoEnergyAmongGrainsOneOfWhichIsFiveTimesTheOther) {
+  BedScene scene = grain_scene(Side::wall, Side::wall);
+  scene.length = {6e-3, 6e-3, 6e-3};
+  Grains grains;
+  for (int n = 0; n < 8; ++n)
+    add_grain(grains, 1e-3 * Vec3{1.5 + 3 * (n % 2), 1.5 + 3 * (n / 2 % 2), 1.5 + 3.0 * (n / 4)},
+              0.1 * Vec3{std::sin(n), std::cos(n), 0.3}, 2.5e-3);
+  for (int n = 0; n < 100; ++n)   // in the planes between the large ones
+    add_grain(grains, 1e-3 * Vec3{0.4 + 0.58 * (n % 10), 0.4 + 0.58 * (n / 10), 3.0},
+              0.3 * Vec3{std::sin(3 * n), std::cos(5 * n), std::sin(7 * n)}, 0.5e-3);
+  const double dt = 0.3 * rayleigh_time(0.5e-3, 2500, 1e6, 0.3);
+  for (const ContactTerms terms : all_contact_terms)
+    for (const double friction : {0.0, 1.0})
+      for (const double restitution : {0.0, 1.0}) {
+        scene.grains.friction = friction, scene.grains.rolling_friction = 0.3 * friction;
+        scene.grains.restitution = restitution;
+        EXPECT_LE(most_energy(scene, terms, grains, dt), 1.01) << friction << " " << restitution;
       }
-    }
 }
 
 TEST(GrainDynamics, RefuseAPeriodicBoxNarrowerThanTwoGrains) {

@@ -10,6 +10,9 @@
 
 namespace bedload {
 
+/// Every choice that GrainDynamics has.
+inline constexpr ContactTerms all_contact_terms[] = {{}, {.wet_restitution = true}, {.lubrication = true}};
+
 /// A box of 40 x 40 x 40 mm for grains of 1 mm, 2500 kg/m3, E 1 MPa; no gravity, no fluid to speak of.
 inline BedScene grain_scene(Side across, Side vertical) {
   BedScene scene;
