@@ -15,7 +15,9 @@ namespace {
 constexpr double neighbourhood = 2;     // radius around a grain in which others count, in diameters
 constexpr double packed_around = 0.2;   // packing of others, by that measure, at grains that lie on each other
 constexpr double packed = 0.5;          // packing at which grains that float cannot pass each other
-constexpr double lone = 0.05;           // below it a grain is a lone one for walls
+constexpr double sparse =
+    0.2;                        // expected depth in diameters below which settled grains are no bed: a fifth of a layer
+constexpr double lone = 0.05;   // below it a grain is a lone one for walls
 
 /// What two spheres have in common [m3]; `far` apart, the larger first.
 double common_volume(double large, double small, double far) {
@@ -90,6 +92,7 @@ void count_table(const Scene& scene, GrainCensus& census) {
   census.smallest = *std::ranges::min_element(grains.diameter);
   for (std::size_t n = 0; n < grains.size(); ++n) {
     census.mobile |= !grains.fixed[n];
+    census.fastest = std::max(census.fastest, norm(grains.velocity[n]));
     census.may_turn |= norm2(grains.spin[n]) > 0;
     census.densest = std::max(census.densest, around[n]);
     census.loosest = std::min(census.loosest, around[n]);
@@ -103,7 +106,7 @@ void count_packed(const Scene& scene, GrainCensus& census) {
   census.mobile = !bed.source.fixed;
   const double dispersed = static_cast<double>(bed.source.count) * sphere_volume(bed.grains.diameter) /
                            (bed.length.x * bed.length.y * bed.length.z);
-  const bool settles = needs_settling(bed);
+  const bool settles = needs_settling(bed) && expected_bed_depth(bed) > sparse * bed.grains.diameter;
   census.bed = settles || dispersed > packed;
   census.densest = settles ? loose_packing : dispersed;
   census.loosest = settles ? 0 : dispersed;

@@ -247,7 +247,8 @@ std::string with_ratio(const ModelChoice& m) {
 }   // namespace
 
 std::vector<ModelChoice> required_models(const Scene& scene) {
-  const Facts facts{scene, census_of(scene), numbers_of(scene)};
+  const auto census = census_of(scene);
+  const Facts facts{scene, census, numbers_of(scene, census)};
   std::vector<ModelChoice> models;
   for (const auto& rule : rules) {
     const bool of_grains = rule.term != "turbulence";

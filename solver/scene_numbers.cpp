@@ -88,10 +88,11 @@ void flow_numbers(const Scene& scene, const GrainCensus& census, SceneNumbers& n
   n.gap_reynolds = reynolds_number(n.flow_speed, n.gap, nu);
 }
 
-/// The fastest slip: falling, in the shear at the bed's surface, in a flow through the grains.
+/// The fastest slip: falling, thrown, in the shear at the bed's surface, in a flow through the grains.
 double largest_slip(const Scene& scene, const GrainCensus& census, const SceneNumbers& n) {
   const double d = scene.bed.grains.diameter, nu = scene.bed.fluid.viscosity;
-  double slip = census.mobile && !std::isnan(n.settling_speed) ? n.settling_speed : 0;
+  double slip = census.fastest;
+  if (census.mobile && !std::isnan(n.settling_speed)) slip = std::max(slip, n.settling_speed);
   if (!std::isnan(n.shear_rate)) {
     const double height = n.bed_depth * d;
     const double shear = std::max(n.shear_rate, shear_of_level(scene, scene.drive.levels.size() - 1, height, n.gap));
@@ -105,11 +106,11 @@ double largest_slip(const Scene& scene, const GrainCensus& census, const SceneNu
   return reynolds_number(slip, d, nu);
 }
 
-void impact_numbers(const Scene& scene, SceneNumbers& n) {
+void impact_numbers(const Scene& scene, const GrainCensus& census, SceneNumbers& n) {
   const double d = scene.bed.grains.diameter;
   const double fall = std::isnan(n.settling_speed) ? 0 : n.settling_speed;
   const double carried = std::isnan(n.shear_rate) ? 0 : carried_share * n.shear_rate * d;
-  n.impact_speed = std::max(fall, carried);
+  n.impact_speed = std::max({fall, carried, census.fastest});
   n.impact_stokes = impact_stokes_number(n.density_ratio, d, n.impact_speed, scene.bed.fluid.viscosity);
 }
 
@@ -120,9 +121,8 @@ bool is_sheared(const Scene& scene) {
   return flows && scene.bed.sides[2] == Side::wall && !scene.drive.levels.empty();
 }
 
-SceneNumbers numbers_of(const Scene& scene) {
+SceneNumbers numbers_of(const Scene& scene, const GrainCensus& census) {
   const auto& bed = scene.bed;
-  const auto census = census_of(scene);
   SceneNumbers n;
   n.bed_depth = census.any ? std::min(expected_bed_depth(bed), 0.95 * bed.length.z) / bed.grains.diameter : 0;
   n.gap = bed.length.z - n.bed_depth * bed.grains.diameter;
@@ -130,7 +130,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   if (census.bed) n.solid_fraction = loose_packing;
   if (is_sheared(scene)) flow_numbers(scene, census, n);
   if (!census.any) return n;
-  if (census.mobile) impact_numbers(scene, n);
+  if (census.mobile) impact_numbers(scene, census, n);
   n.grain_reynolds = largest_slip(scene, census, n);
   return n;
 }

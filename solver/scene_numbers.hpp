@@ -18,6 +18,7 @@ struct GrainCensus {
   double densest = 0;                 // packing density of the other grains at a grain, the largest [-]
   double loosest = 1;                 // the smallest; 0 above a bed, where grains that leave it go [-]
   double smallest = no_number;        // diameter [m]
+  double fastest = 0;                 // speed that a table gives a grain [m/s]
   double nearness = 0;                // a/z of a lone grain to the nearest no-slip wall that it has or comes to [-]
 };
 GrainCensus census_of(const Scene&);
@@ -42,7 +43,7 @@ struct SceneNumbers {
   double gap_reynolds = no_number;        // flow_speed gap/nu [-]
   double lift_per_weight = no_number;     // 1.10 theta Re_g [-]; infinite without submerged weight
   double torque_per_weight = no_number;   // 6 theta [-]; the same
-  double impact_speed = no_number;        // of a grain that falls, or is carried by the shear [m/s]
+  double impact_speed = no_number;        // of a grain that falls, is carried by the shear or thrown by a table [m/s]
   double impact_stokes = no_number;       // at that speed [-]
   double grain_reynolds = no_number;      // the largest slip that a grain is expected to see, at the highest level [-]
   double self_response = no_number;       // kappa: share of a lone grain's own drag that comes back to it as flow [-]
@@ -53,7 +54,8 @@ struct SceneNumbers {
 /// answer. Where no bed can move, the first level counts.
 inline constexpr double quoted_shields = 0.2;
 
-SceneNumbers numbers_of(const Scene&);
+SceneNumbers numbers_of(const Scene&, const GrainCensus&);
+inline SceneNumbers numbers_of(const Scene& scene) { return numbers_of(scene, census_of(scene)); }
 
 /// True where a flow shears the box between bottom and top.
 bool is_sheared(const Scene&);

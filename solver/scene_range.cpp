@@ -225,7 +225,8 @@ void idle_drive(const Facts& f, Found& found) {
 }   // namespace
 
 std::vector<SceneProblem> range_problems_of(const Scene& scene) {
-  const Facts facts{scene, census_of(scene), numbers_of(scene)};
+  const auto census = census_of(scene);
+  const Facts facts{scene, census, numbers_of(scene, census)};
   Found found;
   for (const auto check : {laminar_assumed, drag_law_reynolds, drag_law_packing, small_grains, cells_and_lone_grains,
                            cells_at_a_bed, slope, depth, holds, laminar_levels, stiffness, laws_of_lift, idle_drive})

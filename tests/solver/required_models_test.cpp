@@ -209,6 +209,25 @@ TEST(RequiredModels, SayNothingOfShearWhereNothingDrivesTheFluid) {
   EXPECT_FALSE(choice(scene, "turbulence").wanted);
 }
 
+TEST(RequiredModels, OfOnePouredGrainAreThoseOfALoneOne) {
+  auto scene = laminar_bed();
+  scene.bed.source.count = 1;
+  EXPECT_FALSE(census_of(scene).bed);
+  EXPECT_TRUE(choice(scene, "wall_forces").wanted);
+  EXPECT_NEAR(numbers_of(scene).shields, 0.03, 1e-12);   // no bed to move: the first level counts
+}
+
+// Without gravity only the speed that the table gives brings them to the wall: St = (3 + 1/2) 1e-4 0.1/(9 1e-6) = 3.9.
+TEST(RequiredModels, ReadTheSpeedsOfATable) {
+  auto scene = settling_sphere();
+  scene.bed.gravity = {};
+  EXPECT_FALSE(choice(scene, "wet_restitution").wanted);
+  scene.bed.source.csv =
+      "x,y,z,diameter,density,fixed,vx,vy,vz,wx,wy,wz\n0.5e-3,0.5e-3,4e-3,1e-4,3000,0,0,0,-0.1,0,0,0\n";
+  EXPECT_TRUE(choice(scene, "wet_restitution").wanted);
+  EXPECT_NEAR(numbers_of(scene).impact_stokes, 3.5 * 1e-4 * 0.1 / 9e-6, 1e-9);
+}
+
 // Four others at a distance of one diameter and a half: each lies wholly within two diameters, 1/63 of the space left.
 TEST(GrainCensus, MeasuresThePackingOfTheOtherGrains) {
   const auto lone = census_of(settling_sphere());
