@@ -168,7 +168,7 @@ std::vector<SceneProblem> grain_problems_of(const BedScene& bed) {
     found.push_back({"grains.spread", fmt::format("{} lets the smallest grain vanish", g.spread), "from 0 to 0.3"});
   if (g.restitution > 1)
     found.push_back(
-        {"grains.restitution", fmt::format("{} makes energy in every collision", g.restitution), "above 0, at most 1"});
+        {"grains.restitution", fmt::format("{} makes energy in every collision", g.restitution), "from 0 to 1"});
   if (g.poisson > 0.49)
     found.push_back({"grains.poisson", fmt::format("{} is not Poisson's ratio of a solid", g.poisson),
                      "0 to 0.49; glass and quartz: 0.2-0.3"});

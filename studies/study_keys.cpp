@@ -60,7 +60,7 @@ constexpr StudyKey keys[] = {
     amount("grains.density", dimension::density, "rho"),
     number("grains.spread", Range::not_negative, "spread", "0.05"),
     number("grains.friction", Range::not_negative, "mu", "0.4"),
-    number("grains.restitution", Range::positive, "e", "0.6"),
+    number("grains.restitution", Range::not_negative, "e", "0.6"),
     number("grains.poisson", Range::not_negative, "poisson", "0.3"),
     number("grains.rolling_friction", Range::not_negative, "mur", "0.0"),
     amount("grains.stiffness", dimension::pressure, "E", "auto", "auto"),

@@ -19,7 +19,7 @@ namespace bedload {
 namespace {
 
 constexpr std::string_view header = "x,y,z,diameter,density,fixed";
-constexpr std::string_view moving_header = "x,y,z,diameter,density,fixed,vx,vy,vz,wx,wy,wz";
+constexpr std::string_view velocity_header = ",vx,vy,vz", spin_header = ",wx,wy,wz";   // may follow: both, either, none
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";   // spreadsheets write it before UTF-8
 constexpr double tolerated_overlap = 0.01;                     // of the smaller diameter
 
@@ -62,25 +62,43 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-/// Values of a row: six, or twelve where the table has velocities and spins; the last six are zero where it has not.
+/// Values of a row; those of columns that the table has not are zero.
 using Values = std::array<double, 12>;
 
-std::optional<Values> numbers(std::string_view line, std::string_view columns, std::size_t row,
-                              Complaints& complaints) {
-  const auto commas = std::ranges::count(line, ','), due = std::ranges::count(columns, ',');
-  if (commas != due) {
-    complaints.add(fmt::format("row {}: {} columns where {} are due", row, commas + 1, columns));
+/// The places in Values of a table's columns; nothing if its first line is no header.
+std::optional<std::vector<std::size_t>> places_of(std::string_view columns) {
+  std::vector<std::size_t> places;
+  std::size_t next = 0;
+  for (const std::string_view part : {header, velocity_header, spin_header}) {
+    const std::size_t many = part == header ? 6 : 3;
+    if (columns.starts_with(part)) {
+      columns.remove_prefix(part.size());
+      for (std::size_t n = 0; n < many; ++n) places.push_back(next + n);
+    } else if (part == header) {
+      return std::nullopt;
+    }
+    next += many;
+  }
+  if (!columns.empty()) return std::nullopt;
+  return places;
+}
+
+std::optional<Values> numbers(std::string_view line, std::string_view columns, std::span<const std::size_t> places,
+                              std::size_t row, Complaints& complaints) {
+  const auto found = static_cast<std::size_t>(std::ranges::count(line, ',')) + 1;
+  if (found != places.size()) {
+    complaints.add(fmt::format("row {}: {} columns where {} are due", row, found, columns));
     return std::nullopt;
   }
   Values values{};
-  for (double& value : std::span(values).first(static_cast<std::size_t>(due + 1))) {
+  for (const std::size_t place : places) {
     const std::string_view name = take_until(columns, ','), text = take_until(line, ',');
     const auto read = number(text);
     if (!read) {
       complaints.add(fmt::format("row {}: {} = \"{}\" is not a number", row, name, text));
       return std::nullopt;
     }
-    value = *read;
+    values[place] = *read;
   }
   return values;
 }
@@ -131,10 +149,11 @@ Grains read_grain_table(const BedScene& scene) {
   if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
   Complaints complaints;
   const std::string_view columns = take_until(rest, '\n');
-  if (columns != header && columns != moving_header)
-    throw Error(
-        ErrorKind::study_invalid, fmt::format("row 1: the header is \"{}\", not \"{}\"", columns, header),
-        "the first line names the columns, in this order; vx,vy,vz,wx,wy,wz may follow; all values are in SI units");
+  const auto places = places_of(columns);
+  if (!places)
+    throw Error(ErrorKind::study_invalid, fmt::format("row 1: the header is \"{}\", not \"{}\"", columns, header),
+                "the first line names the columns, in this order; vx,vy,vz and wx,wy,wz may follow; all values are in "
+                "SI units");
   if (rest.find_first_not_of(" \t\r\n") == rest.npos)
     throw Error(ErrorKind::study_invalid, "the table has a header and no grains",
                 "add rows; bed.source = \"none\" is a box without grains");
@@ -143,7 +162,7 @@ Grains read_grain_table(const BedScene& scene) {
   for (std::size_t row = 2; !rest.empty(); ++row) {
     const std::string_view line = take_until(rest, '\n');
     if (line.empty()) continue;
-    const auto values = numbers(line, columns, row, complaints);
+    const auto values = numbers(line, columns, *places, row, complaints);
     if (!values) continue;
     check_row(scene, *values, row, complaints);
     const auto [x, y, z, diameter, density, fixed, vx, vy, vz, wx, wy, wz] = *values;

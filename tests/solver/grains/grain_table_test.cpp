@@ -49,6 +49,20 @@ TEST(GrainTable, ReadsVelocityAndSpinWhereTheHeaderHasThem) {
             std::string::npos);
 }
 
+TEST(GrainTable, ReadsVelocityOrSpinAlone) {
+  const std::string columns = header.substr(0, header.size() - 1), row = "0.01,0.02,0.03,1e-3,2500,0,1,-2,3\n";
+  const Grains thrown = place_grains(with_table(columns + ",vx,vy,vz\n" + row));
+  EXPECT_EQ(thrown.velocity.at(0), (Vec3{1, -2, 3}));
+  EXPECT_EQ(thrown.spin.at(0), Vec3{});
+  const Grains spun = place_grains(with_table(columns + ",wx,wy,wz\n" + row));
+  EXPECT_EQ(spun.velocity.at(0), Vec3{});
+  EXPECT_EQ(spun.spin.at(0), (Vec3{1, -2, 3}));
+  for (const std::string extra : {",wx,wy,wz,vx,vy,vz", ",vx,vy", ",vx,vy,vz,", ",vx,vy,vz,vx,vy,vz"})
+    EXPECT_NE(refusal(columns + extra + "\n" + row).find("row 1: the header is"), std::string::npos) << extra;
+  EXPECT_NE(refusal(columns + ",wx,wy,wz\n0.01,0.02,0.03,1e-3,2500,0,1,fast,3\n").find("row 2: wy = \"fast\""),
+            std::string::npos);
+}
+
 TEST(GrainTable, RefusesATableWithoutGrains) {
   EXPECT_EQ(refusal(header), "the table has a header and no grains");
   EXPECT_EQ(refusal(header + "\r\n\n"), "the table has a header and no grains");
