@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "solver/coupling/added_mass.hpp"
 #include "solver/coupling/hydrodynamic_forces.hpp"
 #include "solver/coupling/implicit_drag.hpp"
 #include "solver/coupling/mixture_response.hpp"
+#include "solver/coupling/spin_exchange.hpp"
 #include "solver/fluid/boundaries.hpp"
 #include "solver/fluid/face_loops.hpp"
 #include "solver/fluid/momentum.hpp"
@@ -109,6 +111,8 @@ struct Coupler::Parts {
         kick(grid) {
     if (scene.terms.turbulence) turbulence.emplace(grid, scene.bed.fluid.viscosity);
     if (scene.terms.added_mass || explicit_forces()) added_exchange = reaction = FaceFields(grid);
+    if (scene.terms.viscous_torque) spin_exchange.emplace(grid);
+    if (wants_vorticity()) vorticity = vorticity_change = FaceFields(grid);
   }
 
   const Scene scene;
@@ -136,6 +140,10 @@ struct Coupler::Parts {
   std::vector<double> added_volume, added_mass;
   std::vector<Vec3> contact_before;
   FaceFields added_exchange, reaction;
+  std::optional<SpinExchange> spin_exchange;
+  FaceFields vorticity, vorticity_change;   // on edges [1/s]
+  std::vector<double> spin_strength;        // T c' [m5]
+  std::vector<Vec3> spin_target, spin_push, torque;
 
   StepBooks books;
   StepTimes times;
@@ -144,6 +152,7 @@ struct Coupler::Parts {
   bool failed() const { return !health.finite || health.lost_grain; }
   bool model_b() const { return scene.terms.model_b(); }
   bool explicit_forces() const { return scene.terms.shear_lift || scene.terms.magnus || scene.terms.wall_forces; }
+  bool wants_vorticity() const { return scene.terms.viscous_torque || scene.terms.shear_lift || scene.terms.magnus; }
   double specific_mass(const Grains& g, std::size_t p) const {
     return sphere_volume(g.diameter[p]) * g.density[p] / scene.bed.fluid.density;
   }
@@ -159,10 +168,12 @@ struct Coupler::Parts {
   void limit_by_grains(const State&, double& step);
   void shorten(double& step, double limit, StepLimit by);
   void predict_grains(const State&, double dt);
+  void predict_spins(const State&, double dt);
   void find_impulse(const State&, double dt);
   void react_on_fluid(const State&, double dt);
   void solve_drag(State&, double dt);
   void book_exchange(const State&, double dt);
+  void book_torques(const Grains&, double dt);
   void give_contact_share(State&, double dt);
   void move_grains(State&, double dt);
   void deposit_at_new_positions(const State&, double dt);
@@ -177,6 +188,7 @@ Coupler::Coupler(const Scene& scene) : parts_(std::make_unique<Parts>(scene)) {}
 Coupler::~Coupler() = default;
 const StepBooks& Coupler::books() const { return parts_->books; }
 std::span<const Vec3> Coupler::drag_on_grains() const { return parts_->drag_force; }
+std::span<const Vec3> Coupler::torque_on_grains() const { return parts_->torque; }
 const StepTimes& Coupler::times() const { return parts_->times; }
 void Coupler::forget() {
   const StepTimes spent = parts_->times;
@@ -268,6 +280,12 @@ void Coupler::Parts::sample_at_grains(State& state) {
   sample_flow(grid, state.grains, stencils, state.fluid.velocity, acceleration, before.centre, law,
               scene.bed.fluid.viscosity, scene.terms, flow);
   health.void_clamps = flow.void_clamps;
+  if (!wants_vorticity()) return;
+  find_vorticity(grid, carried, vorticity);
+  extend_edge_samples(grid, vorticity);
+  flow.vorticity.resize(stencils.size());
+  for (std::size_t p = 0; p < stencils.size(); ++p)
+    flow.vorticity[p] = sample_edges(stencils[p], Strides(grid), vorticity);
 }
 
 void Coupler::Parts::shorten(double& step, double limit, StepLimit by) {
@@ -352,6 +370,27 @@ void Coupler::Parts::predict_grains(const State& state, double dt) {
   }
 }
 
+/// Viscous torque c (curl u*/2 - omega') with the spin omega' at the end of the step, as if the contact torques of the last
+/// step went on: c' (curl u*/2 - omega_t), c' = c/(1 + lambda T), lambda = c rho_f/I.
+void Coupler::Parts::predict_spins(const State& state, double dt) {
+  const Grains& grains = state.grains;
+  const double rho = scene.bed.fluid.density, nu = scene.bed.fluid.viscosity;
+  const std::size_t count = grains.size();
+  spin_strength.resize(count), spin_target.resize(count), spin_push.assign(count, {}), torque.resize(count);
+  for (std::size_t p = 0; p < count; ++p) {
+    const double d = grains.diameter[p];
+    const Vec3 spin = grains.fixed[p] ? Vec3{} : grains.spin[p];
+    const double re = d * d * norm(0.5 * flow.vorticity[p] - spin) / nu;
+    const double c = std::numbers::pi * nu * d * d * d * torque_factor(re);
+    spin_strength[p] = dt * c, spin_target[p] = {};
+    if (grains.fixed[p]) continue;
+    const double inertia = sphere_inertia(grains.density[p] * sphere_volume(d), d);
+    spin_strength[p] = dt * c / (1 + dt * c * rho / inertia);
+    spin_target[p] = spin + dt / inertia * grains.mean_contact_torque[p];
+  }
+  spin_exchange->prepare(stencils, spin_strength, spin_target);
+}
+
 /// What changes the fluid besides drag: T eps a, and the reaction of explicit forces and of added mass.
 void Coupler::Parts::find_impulse(const State& state, double dt) {
   for (int c = 0; c < 3; ++c) {
@@ -360,6 +399,7 @@ void Coupler::Parts::find_impulse(const State& state, double dt) {
     for_each_unknown_face(grid, c, [&](std::size_t n) { b[n] = dt * a[n] * (model_b() ? 1 : eps[n]); });
   }
   if (scene.terms.added_mass || explicit_forces()) react_on_fluid(state, dt);
+  if (spin_exchange) spin_exchange->add_impulse(vorticity, impulse);
 }
 
 /// - sum w T f/V_c of explicit forces; A u^n - sum w (m_a/V_c) v, which leaves to the drag solve the increments of u and v
@@ -393,6 +433,7 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
   Stopwatch watch(times.drag);
   const double nu = scene.bed.fluid.viscosity;
   predict_grains(state, dt);
+  if (spin_exchange) predict_spins(state, dt);
   find_impulse(state, dt);
   const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
   const double largest = nu + (turbulence ? turbulence->largest() : 0);
@@ -400,9 +441,11 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
   DragProblem problem{stencils, exchange, relaxation, ballistic, flow.velocity};
   if (implicit) problem.implicit_viscosity = nu * dt, problem.turbulence = turbulence ? &*turbulence : nullptr;
   problem.step = dt;
+  problem.spin = spin_exchange ? &*spin_exchange : nullptr;
   health.drag_iterations = drag.solve(grid, problem, before.face, impulse, state.fluid.velocity, flow_velocity);
   health.converged = health.drag_iterations < ImplicitDrag::most_iterations;
   book_exchange(state, dt);
+  if (spin_exchange) book_torques(state.grains, dt);
   if (implicit) book_wall_shear(drag.change());
 }
 
@@ -435,6 +478,26 @@ void Coupler::Parts::book_exchange(const State& state, double dt) {
   books.on_grains = rho * on_grains;
 }
 
+/// The torques that the solve has found, into the grains' spin and what the couples leave on walls into the books.
+void Coupler::Parts::book_torques(const Grains& grains, double dt) {
+  const double rho = scene.bed.fluid.density;
+  find_vorticity(grid, drag.change(), vorticity_change);
+  for (int t = 0; t < 3; ++t) {
+    double* w = vorticity.component(t);
+    for (std::size_t n = 0; n < vorticity.x.values.size(); ++n) w[n] += vorticity_change.component(t)[n];
+  }
+  extend_edge_samples(grid, vorticity);
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const Vec3 turn = 0.5 * sample_edges(stencils[p], Strides(grid), vorticity);
+    torque[p] = rho * spin_strength[p] / dt * (turn - spin_target[p]);
+    if (grains.fixed[p]) continue;
+    const double d = grains.diameter[p];
+    spin_push[p] = torque[p] / sphere_inertia(grains.density[p] * sphere_volume(d), d);
+  }
+  const auto walls = spin_exchange->on_walls(vorticity);
+  books.on_bottom += rho / dt * walls.bottom, books.on_lid += rho / dt * walls.top;
+}
+
 /// Sub-steps of {contacts, motion} under the constant push; drag does not change within them.
 void Coupler::Parts::move_grains(State& state, double dt) {
   Stopwatch watch(times.contacts);
@@ -442,8 +505,9 @@ void Coupler::Parts::move_grains(State& state, double dt) {
   moved.assign(grains.size(), {});
   if (health.substeps == 0) return;
   if (scene.terms.added_mass) contact_before = grains.mean_contact_force;
-  const GrainHealth contact = dynamics.advance(grains, state.contacts, {.push = push, .added_mass = added_mass},
-                                               dt / health.substeps, health.substeps, state.search.lid_speed);
+  const GrainHealth contact =
+      dynamics.advance(grains, state.contacts, {.push = push, .spin_push = spin_push, .added_mass = added_mass},
+                       dt / health.substeps, health.substeps, state.search.lid_speed);
   health.deepest_overlap = contact.deepest_overlap;
   books.contact_on_walls = contact.force_on_walls;
   const Vec3 length = scene.bed.length;

@@ -27,8 +27,8 @@ struct StepHealth {
   int drag_iterations = 0, pressure_iterations = 0;
   std::uint64_t void_clamps = 0;          // grains whose void fraction was clamped in the drag law
   std::uint64_t disturbance_clamps = 0;   // grains whose self-disturbance was outside its table
-  bool converged = true;           // of both linear solves
-  bool lost_grain = false;         // one crossed more than a cell in the step, or its centre passed a wall
+  bool converged = true;                  // of both linear solves
+  bool lost_grain = false;                // one crossed more than a cell in the step, or its centre passed a wall
   bool finite = true;
 };
 
@@ -36,7 +36,7 @@ struct StepHealth {
 /// passes to side walls, and along z, is not booked.
 struct StepBooks {
   Vec3 on_grains;          // hydrodynamic force on all grains, fixed ones too (drag, pressure, viscous stress, kick)
-  Vec3 on_bottom;          // viscous stress of the fluid on the bottom wall, x and y
+  Vec3 on_bottom;          // viscous stress (and couples of grains) on the bottom wall, x and y
   Vec3 on_lid;             // the same on the lid
   Vec3 driving;            // G on the fluid (and on grains, Model A), x and y
   Vec3 contact_on_walls;   // of grains on walls
@@ -59,6 +59,8 @@ class Coupler {
   const StepBooks& books() const;
   /// Drag of the last step on each grain, by id [N].
   std::span<const Vec3> drag_on_grains() const;
+  /// Viscous torque of the last step on each grain, by id [N m]; empty without the term.
+  std::span<const Vec3> torque_on_grains() const;
   const StepTimes& times() const;
   /// Forgets all scratch (the amnesia test: must change no bit).
   void forget();

@@ -55,8 +55,9 @@ double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, c
       b_max = std::max(b_max, (b[n] + viscous) / eps[n]);   // what is left of r is stiff in either
     });
   }
-  if (!problem.turbulence) return b_max;
-  problem.turbulence->add_diagonal(problem.step, diagonal_);
+  if (!problem.turbulence && !problem.spin) return b_max;
+  if (problem.turbulence) problem.turbulence->add_diagonal(problem.step, diagonal_);
+  if (problem.spin) problem.spin->add_diagonal(diagonal_);
   for (int c = 0; c < 3; ++c) {
     const double *d = diagonal_.component(c), *eps = void_fraction.component(c);
     for_each_unknown_face(g, c, [&](std::size_t n) { b_max = std::max(b_max, d[n] / eps[n] - 1); });
@@ -78,8 +79,9 @@ void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, con
     deposit(s, stride, scaled(share, sample(s, stride, x)), out);
   }
   if (any_grain) fold_deposits(g, out);
+  if (problem.implicit_viscosity > 0 || problem.spin) fill_velocity_ghosts(g, x, 0);
+  if (problem.spin) problem.spin->add_image(x, out);
   if (problem.implicit_viscosity > 0) {
-    fill_velocity_ghosts(g, x, 0);
     laplacian(g, x, laplacian_);
     if (problem.turbulence) problem.turbulence->add_force(x, -problem.step, out);
   }
@@ -126,7 +128,7 @@ int ImplicitDrag::solve(const StaggeredGrid& g, const DragProblem& problem, cons
   each([&](int c, std::size_t n) {
     velocity.component(c)[n] += residual_.component(c)[n] / void_fraction.component(c)[n];
   });
-  if (problem.implicit_viscosity > 0) fill_velocity_ghosts(g, change_, 0);
+  if (problem.implicit_viscosity > 0 || problem.spin) fill_velocity_ghosts(g, change_, 0);
   return iterations;
 }
 

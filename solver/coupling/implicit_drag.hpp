@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/coupling/spin_exchange.hpp"
 #include "solver/coupling/void_fraction.hpp"
 #include "solver/fluid/turbulence.hpp"
 
@@ -20,10 +21,11 @@ struct DragProblem {
   double implicit_viscosity = 0;            // T nu [m2], or 0 where viscosity is explicit
   const Turbulence* turbulence = nullptr;   // whose stress is implicit too, over `step`; nullptr if none is
   double step = 0;                          // T [s]
+  SpinExchange* spin = nullptr;             // the couples of viscous torque, prepared; nullptr if there are none
 };
 
 /// Solves, for the change of velocity since u^n,
-///   (eps_f + B_f) u*_f - sum_p w_pf K [a/(1+a)] (sum_g w_pg u*_g) - T [nu lap(u* - u^n) + div of its eddy stress] = eps_f u^n_f + T b_f + sum_p w_pf K vt_p/(1+a)
+///   (eps_f + B_f) u*_f - sum_p w_pf K [a/(1+a)] (sum_g w_pg u*_g) - T [nu lap(u* - u^n) + div of its eddy stress] + curl^T C curl (u* - u^n)/4 = eps_f u^n_f + T b_f + sum_p w_pf K vt_p/(1+a)
 /// by conjugate gradients (symmetric positive definite, preconditioned by eps + B) to |r| < 0.01/(1 + b_max) |r_0|, b_max the largest of (B + viscous diagonal)/eps.
 class ImplicitDrag {
  public:
@@ -36,7 +38,7 @@ class ImplicitDrag {
   int solve(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction, const FaceFields& impulse,
             FaceFields& velocity, std::span<Vec3> flow_velocity);
 
-  /// u* - u^n of the last solve; its ghosts are filled where viscosity was implicit.
+  /// u* - u^n of the last solve; its ghosts are filled where viscosity was implicit or there were couples.
   const FaceFields& change() const { return change_; }
 
  private:

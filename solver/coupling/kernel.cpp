@@ -20,8 +20,8 @@ template <class Visit>
 void for_each_image(const StaggeredGrid& g, int place, std::array<int, 3> order, Visit&& visit) {
   constexpr int ghosts = StaggeredGrid::ghosts;
   for (const int c : order) {
-    const int d = c == 0 ? 1 : 0, e = c == 2 ? 1 : 2;   // the inner loop along the rows
-    if (!g.periodic(c) && place == c) continue;         // faces on the walls are their own; grains reach none beyond
+    const int d = c == 0 ? 1 : 0, e = c == 2 ? 1 : 2;    // the inner loop along the rows
+    if (!g.periodic(c) && has_hat(place, c)) continue;   // what lies on walls is its own; grains reach none beyond
     for (const Image& image : images(g, c)) {
       const std::ptrdiff_t from = (image.ghost + ghosts) * g.stride(c), to = (image.home + ghosts) * g.stride(c);
       for (int p = 0; p < g.cells[d] + 2 * ghosts; ++p)
@@ -47,9 +47,15 @@ void extend_samples(const StaggeredGrid& g, FaceFields& f) {
   for (int c = 0; c < 3; ++c) extend(g, c, f.component(c));
 }
 void extend_samples(const StaggeredGrid& g, Field<Centre>& f) { extend(g, on_cells, f.data()); }
+void extend_edge_samples(const StaggeredGrid& g, FaceFields& f) {
+  for (int t = 0; t < 3; ++t) extend(g, on_x_edges + t, f.component(t));
+}
 void fold_deposits(const StaggeredGrid& g, FaceFields& f) {
   for (int c = 0; c < 3; ++c) fold(g, c, f.component(c));
 }
 void fold_deposits(const StaggeredGrid& g, Field<Centre>& f) { fold(g, on_cells, f.data()); }
+void fold_edge_deposits(const StaggeredGrid& g, FaceFields& f) {
+  for (int t = 0; t < 3; ++t) fold(g, on_x_edges + t, f.component(t));
+}
 
 }   // namespace bedload

@@ -66,22 +66,35 @@ struct Stencil {
   }
 };
 
-/// Places a field can live: faces normal to x, y, z, or cells.
-enum Place : int { on_x_faces = 0, on_y_faces = 1, on_z_faces = 2, on_cells = 3 };
+/// Places a field can live: faces normal to x, y, z, cells, or edges along x, y, z.
+enum Place : int {
+  on_x_faces = 0,
+  on_y_faces = 1,
+  on_z_faces = 2,
+  on_cells = 3,
+  on_x_edges = 4,
+  on_y_edges,
+  on_z_edges
+};
+
+/// Whether a place has the hat along a direction, and lies on the lower faces of cells there; else it has the spline.
+constexpr bool has_hat(int place, int direction) noexcept {
+  return place < on_cells ? place == direction : place > on_cells && place - on_x_edges != direction;
+}
 
 /// Calls visit(padded index of the row's first entry, weight across the row) for each row of z-neighbours of a grain.
 template <Place P, class Visit>
 inline void for_each_row(const Stencil& s, Strides stride, Visit&& visit) noexcept {
-  constexpr int nx = P == on_x_faces ? 2 : 3, ny = P == on_y_faces ? 2 : 3;
-  const double* wx = P == on_x_faces ? s.face_x : s.cell_x;
-  const double* wy = P == on_y_faces ? s.face_y : s.cell_y;
+  constexpr int nx = has_hat(P, 0) ? 2 : 3, ny = has_hat(P, 1) ? 2 : 3;
+  const double* wx = has_hat(P, 0) ? s.face_x : s.cell_x;
+  const double* wy = has_hat(P, 1) ? s.face_y : s.cell_y;
   for (int a = 0; a < nx; ++a)
     for (int b = 0; b < ny; ++b) visit(s.corner + (a + 3 - nx) * stride.x + (b + 3 - ny) * stride.y, wx[a] * wy[b]);
 }
 
 template <Place P>
 inline Row row_weights(const Stencil& s) noexcept {
-  return P == on_z_faces ? s.face_z : s.cell_z;
+  return has_hat(P, 2) ? s.face_z : s.cell_z;
 }
 
 /// Value of one field at a grain.
@@ -112,13 +125,26 @@ inline void deposit(const Stencil& s, Strides stride, Vec3 amount, FaceFields& f
   deposit<on_z_faces>(s, stride, amount.z, f.component(2));
 }
 
+/// The same on edges: component t of the field is that on edges along t, at the lower corner of the other two directions.
+inline Vec3 sample_edges(const Stencil& s, Strides stride, const FaceFields& f) noexcept {
+  return {sample<on_x_edges>(s, stride, f.component(0)), sample<on_y_edges>(s, stride, f.component(1)),
+          sample<on_z_edges>(s, stride, f.component(2))};
+}
+inline void deposit_on_edges(const Stencil& s, Strides stride, Vec3 amount, FaceFields& f) noexcept {
+  deposit<on_x_edges>(s, stride, amount.x, f.component(0));
+  deposit<on_y_edges>(s, stride, amount.y, f.component(1));
+  deposit<on_z_edges>(s, stride, amount.z, f.component(2));
+}
+
 /// Fills the ghosts that grains read: periodic copies; reflected at walls with the same sign (faces on a wall keep their own value).
 void extend_samples(const StaggeredGrid&, FaceFields&);
 void extend_samples(const StaggeredGrid&, Field<Centre>&);
+void extend_edge_samples(const StaggeredGrid&, FaceFields& on_edges);
 
 /// Adds what grains wrote into ghosts to the cells and faces they stand for, and clears the ghosts.
 void fold_deposits(const StaggeredGrid&, FaceFields&);
 void fold_deposits(const StaggeredGrid&, Field<Centre>&);
+void fold_edge_deposits(const StaggeredGrid&, FaceFields& on_edges);
 
 /// Zero everywhere, ghosts too: before a deposit.
 inline void clear(FaceFields& f, double value = 0) {

@@ -23,12 +23,17 @@ Terms with_added_mass(Terms terms = {}) {
   return terms;
 }
 
+Terms with_torque(Terms terms = {}) {
+  terms.viscous_torque = true;
+  return terms;
+}
+
 struct MomentumCase {
   double density_ratio;
   Terms terms{};
   friend void PrintTo(const MomentumCase& c, std::ostream* out) {
     *out << "density ratio " << c.density_ratio << ", Model " << (c.terms.model_b() ? "B" : "A")
-         << (c.terms.added_mass ? ", added mass" : "");
+         << (c.terms.added_mass ? ", added mass" : "") << (c.terms.viscous_torque ? ", viscous torque" : "");
   }
 };
 class PeriodicSuspension : public testing::TestWithParam<MomentumCase> {};
@@ -37,7 +42,9 @@ INSTANTIATE_TEST_SUITE_P(Momentum, PeriodicSuspension,
                                          MomentumCase{1.01, with_added_mass()}, MomentumCase{1.05, with_added_mass()},
                                          MomentumCase{2.65, with_added_mass()},
                                          MomentumCase{1.01, with_added_mass(model_b)},
-                                         MomentumCase{2.65, with_added_mass(model_b)}));
+                                         MomentumCase{2.65, with_added_mass(model_b)},
+                                         MomentumCase{1.05, with_torque(with_added_mass())},
+                                         MomentumCase{2.65, with_torque(model_b)}));
 
 TEST_P(PeriodicSuspension, KeepsItWhileGrainsMoveAndCollide) {
   const double d = 1e-3;
@@ -66,7 +73,7 @@ struct BooksCase {
   double viscosity = 1e-6;
   friend void PrintTo(const BooksCase& c, std::ostream* out) {
     *out << "viscosity " << c.viscosity << ", Model " << (c.terms.model_b() ? "B" : "A")
-         << (c.terms.added_mass ? ", added mass" : "");
+         << (c.terms.added_mass ? ", added mass" : "") << (c.terms.viscous_torque ? ", viscous torque" : "");
   }
 };
 class ShearedMixture : public testing::TestWithParam<BooksCase> {};
@@ -74,7 +81,9 @@ INSTANTIATE_TEST_SUITE_P(Momentum, ShearedMixture,
                          testing::Values(BooksCase{}, BooksCase{model_b}, BooksCase{{}, 1e-2},
                                          BooksCase{model_b, 1e-2},   // 1e-2: implicit
                                          BooksCase{with_added_mass()}, BooksCase{with_added_mass(model_b)},
-                                         BooksCase{with_added_mass(), 1e-2}));
+                                         BooksCase{with_added_mass(), 1e-2}, BooksCase{with_torque()},
+                                         BooksCase{with_torque(with_added_mass(model_b))},
+                                         BooksCase{with_torque(), 1e-2}));
 
 TEST_P(ShearedMixture, IsBookedCompletelyAlongTheFlow) {
   // A tilted channel with a lid and a gradient; fixed and free grains of two sizes and densities. What the fluid gains is

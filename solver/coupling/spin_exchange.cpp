@@ -1,0 +1,134 @@
+#include "solver/coupling/spin_exchange.hpp"
+
+#include "solver/fluid/boundaries.hpp"
+#include "solver/fluid/face_loops.hpp"
+
+namespace bedload {
+namespace {
+
+/// Rows of edges along t, the planes 0 and n of the other directions included: body(first index, length).
+template <class Body>
+void for_each_edge_row(const StaggeredGrid& g, int t, Body&& body) {
+  for (int i = 0; i < g.cells[0] + (t != 0); ++i)
+    for (int j = 0; j < g.cells[1] + (t != 1); ++j) body(g.index(i, j, 0), g.cells[2] + (t != 2));
+}
+
+/// Adds factor curl^T e: on faces normal to c, de_{c+2}/dx_{c+1} - de_{c+1}/dx_{c+2} of an edge field.
+void add_curl_transposed(const StaggeredGrid& g, const FaceFields& e, double factor, FaceFields& out) {
+  for (int c = 0; c < 3; ++c) {
+    const int a = (c + 1) % 3, b = (c + 2) % 3;
+    const std::ptrdiff_t sa = g.stride(a), sb = g.stride(b);
+    const double ka = factor / g.h[a], kb = factor / g.h[b];
+    for_each_face_row(g, c, [&](std::size_t row, int length) {
+      const double* __restrict ea = e.component(a) + row;
+      const double* __restrict eb = e.component(b) + row;
+      double* __restrict y = out.component(c) + row;
+      for (int k = 0; k < length; ++k) y[k] += ka * (eb[k + sa] - eb[k]) - kb * (ea[k + sb] - ea[k]);
+    });
+  }
+}
+
+}   // namespace
+
+void find_vorticity(const StaggeredGrid& g, const FaceFields& velocity, FaceFields& on_edges) {
+  for (int t = 0; t < 3; ++t) {
+    const int a = (t + 1) % 3, b = (t + 2) % 3;
+    const std::ptrdiff_t sa = g.stride(a), sb = g.stride(b);
+    const double ka = 1 / g.h[a], kb = 1 / g.h[b];
+    for_each_edge_row(g, t, [&](std::size_t row, int length) {
+      const double* __restrict ua = velocity.component(a) + row;
+      const double* __restrict ub = velocity.component(b) + row;
+      double* __restrict e = on_edges.component(t) + row;
+      for (int k = 0; k < length; ++k) e[k] = ka * (ub[k] - ub[k - sa]) - kb * (ua[k] - ua[k - sb]);
+    });
+  }
+}
+
+SpinExchange::SpinExchange(const StaggeredGrid& g) : grid_(g), strength_(g), target_(g), turn_(g) {}
+
+/// An edge on a no-slip wall turns with the wall's velocity held, and the ghost's is its mirror image: transposed, that counts
+/// twice. On a free surface there is no vorticity to resist.
+void SpinExchange::weigh_walls(FaceFields& f) const {
+  for (int c = 0; c < 3; ++c) {
+    if (grid_.periodic(c)) continue;
+    for (int t = 0; t < 3; ++t) {
+      if (t == c) continue;
+      const int other = 3 - c - t;
+      for (int m = 0; m < grid_.cells[t]; ++m)
+        for (int n = 0; n <= grid_.cells[other]; ++n) {
+          double* const low = f.component(t) + grid_.index(0, 0, 0) + m * grid_.stride(t) + n * grid_.stride(other);
+          low[0] *= 2;
+          low[grid_.cells[c] * grid_.stride(c)] *= c == 2 && grid_.top == Top::free_slip ? 0 : 2;
+        }
+    }
+  }
+}
+
+void SpinExchange::prepare(std::span<const Stencil> stencils, std::span<const double> strength,
+                           std::span<const Vec3> target) {
+  clear(strength_), clear(target_);
+  const Strides stride(grid_);
+  for (std::size_t p = 0; p < stencils.size(); ++p) {
+    const double c = strength[p] / grid_.cell_volume();
+    deposit_on_edges(stencils[p], stride, {c, c, c}, strength_);
+    deposit_on_edges(stencils[p], stride, c * target[p], target_);
+  }
+  for (FaceFields* f : {&strength_, &target_}) {
+    fold_edge_deposits(grid_, *f);
+    weigh_walls(*f);
+    fill_face_ghosts(grid_, *f);
+  }
+}
+
+void SpinExchange::add_impulse(const FaceFields& vorticity, FaceFields& impulse) const {
+  FaceFields couple(grid_);
+  for (int t = 0; t < 3; ++t)
+    for_each_edge_row(grid_, t, [&](std::size_t row, int length) {
+      for (std::size_t n = row; n < row + length; ++n)
+        couple.component(t)[n] = 0.5 * strength_.component(t)[n] * vorticity.component(t)[n] - target_.component(t)[n];
+    });
+  add_curl_transposed(grid_, couple, -0.5, impulse);
+}
+
+void SpinExchange::add_image(const FaceFields& x, FaceFields& out) {
+  find_vorticity(grid_, x, turn_);
+  for (int t = 0; t < 3; ++t)
+    for_each_edge_row(grid_, t, [&](std::size_t row, int length) {
+      double* __restrict e = turn_.component(t) + row;
+      const double* __restrict c = strength_.component(t) + row;
+      for (int k = 0; k < length; ++k) e[k] *= c[k];
+    });
+  add_curl_transposed(grid_, turn_, 0.25, out);
+}
+
+void SpinExchange::add_diagonal(FaceFields& out) const {
+  for (int c = 0; c < 3; ++c) {
+    const int a = (c + 1) % 3, b = (c + 2) % 3;
+    const std::ptrdiff_t sa = grid_.stride(a), sb = grid_.stride(b);
+    const double ka = 0.25 / (grid_.h[a] * grid_.h[a]), kb = 0.25 / (grid_.h[b] * grid_.h[b]);
+    const double *ea = strength_.component(a), *eb = strength_.component(b);
+    for_each_unknown_face(grid_, c, [&, y = out.component(c)](std::size_t n) {
+      y[n] += ka * (eb[n + sa] + eb[n]) + kb * (ea[n + sb] + ea[n]);
+    });
+  }
+}
+
+SpinExchange::WallImpulse SpinExchange::on_walls(const FaceFields& vorticity) const {
+  WallImpulse sum;
+  if (grid_.periodic(2)) return sum;
+  for (int c = 0; c < 2; ++c) {
+    const int t = 1 - c;   // along whose edges the walls bear forces along c
+    const double* strength = strength_.component(t);
+    const double *target = target_.component(t), *turn = vorticity.component(t);
+    const auto couple = [=](std::size_t n) { return 0.5 * strength[n] * turn[n] - target[n]; };
+    const double scale = (c == 0 ? 0.5 : -0.5) * grid_.cell_volume() / grid_.h.z;
+    for (int i = c == 0 ? grid_.first_face(0) : 0; i < grid_.cells[0]; ++i)
+      for (int j = c == 1 ? grid_.first_face(1) : 0; j < grid_.cells[1]; ++j) {
+        sum.bottom[c] += scale * couple(grid_.index(i, j, 0));
+        sum.top[c] -= scale * couple(grid_.index(i, j, grid_.cells[2]));
+      }
+  }
+  return sum;
+}
+
+}   // namespace bedload
