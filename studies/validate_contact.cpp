@@ -110,10 +110,10 @@ struct Material {
 };
 
 std::string rebound_figure(const Material& m, const std::vector<Impact>& seen) {
-  const double span = seen.back().before * 1.05, stop = 3.5 * (1 + m.restitution) * m.friction;
-  const double sticks_below = stop / (1 + m.tangential);
+  const double stop = 3.5 * (1 + m.restitution) * m.friction, sticks_below = stop / (1 + m.tangential);
+  const double span = 2.2 * stop;
   SvgPlot plot(640, 330, {"tangential over normal speed before, Psi1", 0, span},
-               {"the same after, Psi2", -0.25 * span, span}, 190);
+               {"the same after, Psi2", -0.4 * stop, 1.2 * stop}, 190);
   plot.line({{0, 0}, {span, 0}}, {"#c6ced3", 1, ""});
   plot.line({{sticks_below, sticks_below - stop}, {span, span - stop}}, {"#333", 1.5, ""});
   plot.line({{0, 0}, {sticks_below, -m.tangential * sticks_below}}, {"#333", 1.5, "5 3"});

@@ -12,6 +12,7 @@ namespace bedload {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+const char* beads(double to_saddle) { return to_saddle < 0.5 ? "three" : "four"; }
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 /// Push per submerged weight at which grain 0 went past `x`: between the level under which it did and the one before,
@@ -35,14 +36,37 @@ Findings departures(const std::vector<FinishedCase>& runs, double to_saddle, dou
     const double slope = run.input("box.slope"),
                  saddle = trajectory_of(run, 0).position.front().x + to_saddle * run.input("grains.diameter");
     const bool rolls = run.input("grains.friction") > 0;
-    found.rows.push_back({.name = fmt::format("push at departure, bed tilted by {:.0f} deg, bead {} [W']",
-                                              degrees(slope), rolls ? "rolls" : "slides"),
+    found.rows.push_back({.name = fmt::format("push at departure, pocket of {}, tilted by {:.0f} deg, bead {} [W']",
+                                              beads(to_saddle), degrees(slope), rolls ? "rolls" : "slides"),
                           .reference = to_saddle / height * std::cos(slope) - std::sin(slope),
                           .source = "statics: tan a cos b - sin b",
                           .ours = push_at_departure(run, saddle),
                           .band = Band::within(0.01)});
   }
   return found;
+}
+
+/// Up to which slope grain 0 stays: between the last slope on which it did and the first on which it did not, the slopes of
+/// the study rising. NaN unless both occur, in this order.
+double tilt_at_departure(const std::vector<FinishedCase>& runs, double to_saddle) {
+  double stays = nan, leaves = nan;
+  for (const auto& run : runs) {
+    const Trajectory path = trajectory_of(run, 0);
+    const bool left = path.position.back().x > path.position.front().x + to_saddle * run.input("grains.diameter");
+    const double slope = run.input("box.slope");
+    if (left && std::isnan(leaves)) leaves = slope;
+    if (!left) stays = slope;
+  }
+  return stays < leaves ? 0.5 * (stays + leaves) : nan;
+}
+
+Findings tilt(const std::vector<FinishedCase>& runs, double to_saddle, double height) {
+  return {.rows = {{.name = fmt::format("tilt at departure, pocket of {} [deg]", beads(to_saddle)),
+                    .reference = degrees(std::atan(to_saddle / height)),
+                    .source = "statics: the pocket's angle a",
+                    .ours = degrees(tilt_at_departure(runs, to_saddle)),
+                    .band = Band::within(0.01)}},
+          .figures = {}};
 }
 
 bool level_or_down_and_smooth(const Case& one) {
@@ -59,6 +83,14 @@ std::vector<Rung> onset_rungs() {
        [](const auto& runs) { return departures(runs, sqrt(1.0 / 12), sqrt(2.0 / 3)); }, level_or_down_and_smooth},
       {"onset-pocket-quadratic", "a bead in the pocket of four beads is pushed towards the saddle between two of them",
        [](const auto& runs) { return departures(runs, 0.5, sqrt(0.5)); }, level_or_down_and_smooth},
+      {"onset-tilt-triangular",
+       "a pocket of three beads is tilted towards the saddle between two of them",
+       [](const auto& runs) { return tilt(runs, sqrt(1.0 / 12), sqrt(2.0 / 3)); },
+       {}},
+      {"onset-tilt-quadratic",
+       "a pocket of four beads is tilted towards the saddle between two of them",
+       [](const auto& runs) { return tilt(runs, 0.5, sqrt(0.5)); },
+       {}},
   };
 }
 
