@@ -154,14 +154,15 @@ TEST(GrainDynamics, GiveTheSameBitsWheneverTheirListsAreMade) {
   BedScene scene = grain_scene(Side::periodic, Side::wall);
   scene.length = {8e-3, 8e-3, 10e-3};
   scene.fluid.viscosity = 1e-5;
-  for (const ContactTerms terms : all_contact_terms)
-    for (const double rolling : {0.0, 0.2}) {
+  for (const double rolling : {0.0, 0.2})
+    for (const ContactTerms terms : all_contact_terms) {
+      if (rolling == 0 && (terms.wet_restitution || terms.lubrication)) continue;
       scene.grains.rolling_friction = rolling;
       const auto straight = agitate(scene, terms, [](auto&) {});
       const auto amnesic = agitate(scene, terms, [](auto& dynamics) { dynamics->forget(); });
       int call = 0;
       const auto replaced = agitate(scene, terms, [&](auto& dynamics) {
-        if (++call % 20 == 0) dynamics = std::make_unique<GrainDynamics>(scene, terms);
+        if (++call % 60 == 0) dynamics = std::make_unique<GrainDynamics>(scene, terms);
       });
       EXPECT_GT(straight.second.size(), 100u);
       EXPECT_EQ(straight.second.damping.size(), terms.wet_restitution ? straight.second.size() : 0);
@@ -251,7 +252,7 @@ double most_energy(const BedScene& scene, ContactTerms terms, Grains grains, dou
   GrainDynamics dynamics(scene, terms);
   ContactHistory contacts;
   double most = 0, deepest = 0;
-  for (int n = 0; n < 500; ++n) {
+  for (int n = 0; n < 150; ++n) {
     deepest = std::max(deepest, coast(dynamics, grains, contacts, dt, 10).deepest_overlap);
     most = std::max(most, kinetic_energy(grains));
   }
@@ -277,13 +278,10 @@ TEST(GrainDynamics, MakeNoEnergyAtExtremeFrictionAndRestitution) {
   const double dt = 0.3 * rayleigh_time(0.6e-3, 2500, 1e6, 0.3);
   for (const ContactTerms terms : all_contact_terms)
     for (const double friction : {0.0, 1.0})
-      for (const double rolling : {0.0, 1.0})
-        for (const double restitution : {0.0, 1.0}) {
-          scene.grains.friction = friction, scene.grains.restitution = restitution;
-          scene.grains.rolling_friction = rolling;
-          EXPECT_LE(most_energy(scene, terms, agitated_grains(scene, 100), dt), 1.01)
-              << friction << " " << rolling << " " << restitution;
-        }
+      for (const double restitution : {0.0, 1.0}) {
+        scene.grains.friction = scene.grains.rolling_friction = friction, scene.grains.restitution = restitution;
+        EXPECT_LE(most_energy(scene, terms, agitated_grains(scene, 100), dt), 1.01) << friction << " " << restitution;
+      }
 }
 
 TEST(GrainDynamics, MakeNoEnergyAmongGrainsOneOfWhichIsFiveTimesTheOther) {
