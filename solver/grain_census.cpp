@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/coupling/packing_of_others.hpp"
 #include "solver/coupling/wall_effects.hpp"
 #include "solver/expected_bed.hpp"
 #include "solver/grains/bed_packing.hpp"
@@ -17,7 +18,6 @@ constexpr double packed_around = 0.2;   // packing of others, by that measure, a
 constexpr double packed = 0.5;          // packing at which grains that float cannot pass each other
 constexpr double sparse =
     0.2;                        // expected depth in diameters below which settled grains are no bed: a fifth of a layer
-constexpr double lone = 0.05;   // below it a grain is a lone one for walls
 
 /// What two spheres have in common [m3]; `far` apart, the larger first.
 double common_volume(double large, double small, double far) {
@@ -96,7 +96,7 @@ void count_table(const Scene& scene, GrainCensus& census) {
     census.may_turn |= norm2(grains.spin[n]) > 0;
     census.densest = std::max(census.densest, around[n]);
     census.loosest = std::min(census.loosest, around[n]);
-    if (around[n] < lone) census.nearness = std::max(census.nearness, nearness_of(scene, grains, n));
+    if (loneness(around[n]) > 0) census.nearness = std::max(census.nearness, nearness_of(scene, grains, n));
   }
   census.bed = census.densest > packed_around;
 }
@@ -110,7 +110,7 @@ void count_packed(const Scene& scene, GrainCensus& census) {
   census.bed = settles || dispersed > packed;
   census.densest = settles ? loose_packing : dispersed;
   census.loosest = settles ? 0 : dispersed;
-  if (!settles && dispersed < lone && census.mobile && lands(bed, bed.grains.density)) census.nearness = 1;
+  if (!settles && loneness(dispersed) > 0 && census.mobile && lands(bed, bed.grains.density)) census.nearness = 1;
   census.smallest = smallest_diameter(bed);
 }
 

@@ -8,6 +8,7 @@
 
 #include "solver/coupling/drag_laws.hpp"
 #include "solver/coupling/lateral_forces.hpp"
+#include "solver/coupling/packing_of_others.hpp"
 #include "solver/grains/grains.hpp"
 #include "solver/scene_range.hpp"
 
@@ -25,9 +26,7 @@ constexpr double spinning = 0.1;           // omega d/(2 w)
 constexpr double inertial = 1;             // Re of a grain below which spin deflects nothing
 constexpr double dry_impact = 2000;        // impact Stokes number
 constexpr double near_wall = 0.05;         // a/z
-constexpr double dilute = 0.05;            // packing of others up to which walls count
 constexpr double small_grain = 0.02;       // d/h
-constexpr double dense = 0.3;              // packing of others from which a grain is none of the lone ones
 constexpr double loss_per_stokes = 35;     // ln of the restitution a film takes is 35/St
 
 /// What every rule reads.
@@ -86,8 +85,8 @@ ModelChoice viscous_stress(const Facts& f) {
 
 ModelChoice self_disturbance(const Facts& f) {
   const double size = f.diameter() / f.edge(), share = f.n.self_response;
-  const bool lone = f.grains.loosest < dense;
-  const auto why = !lone ? fmt::format("no lone grain: packing around every grain >= {:g}", dense)
+  const bool lone = loneness(f.grains.loosest) > 0;
+  const auto why = !lone ? fmt::format("no lone grain: a packing of at least {:.2g} around every one", f.grains.loosest)
                          : fmt::format("d/h = {:.2g} {} {:g}: {:.2g} of a lone grain's drag comes back to it as flow",
                                        size, side(size > small_grain), small_grain, share);
   const double fast = share < 1 ? 100 * share / (1 - share) : no_number;
@@ -157,7 +156,7 @@ ModelChoice wall_forces(const Facts& f) {
   if (k == 0)
     return {.ratio = 0,
             .reason = fmt::format("{}: a drag law for many grains knows the neighbours",
-                                  f.grains.loosest < dilute && !f.grains.bed ? "no plane wall near a lone grain"
+                                  loneness(f.grains.loosest) > 0 && !f.grains.bed ? "no plane wall near a lone grain"
                                                                              : "no lone grain beside a wall")};
   return {
       .wanted = k > near_wall,
