@@ -88,9 +88,10 @@ struct ValidationGroup {
   std::vector<Rung> (*rungs)();
 };
 
-std::vector<Rung> contact_rungs();   // validate_contact.cpp
-std::vector<Rung> fluid_rungs();     // validate_fluid.cpp
-std::vector<Rung> onset_rungs();     // validate_onset.cpp
+std::vector<Rung> contact_rungs();    // validate_contact.cpp
+std::vector<Rung> fluid_rungs();      // validate_fluid.cpp
+std::vector<Rung> onset_rungs();      // validate_onset.cpp
+std::vector<Rung> settling_rungs();   // validate_settling.cpp
 
 /// In the order of the ladder.
 std::span<const ValidationGroup> validation_groups();

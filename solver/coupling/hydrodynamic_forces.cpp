@@ -36,7 +36,8 @@ Vec3 drag_without_own_flow(const Coefficient& coefficient, const SelfDisturbance
   bool clamped = false;
   for (int pass = 0; pass < passes; ++pass) {
     const double beta = coefficient(norm(slip));
-    const OwnFlow own = disturbance.at(position, 0.5 * (slip + sampled), viscosity);
+    // The own flow goes along with the grain at about a third of its peak, where it is sampled.
+    const OwnFlow own = disturbance.at(position, slip + (sampled - slip) / 3, viscosity);
     clamped = false;
     for (int c = 0; c < 3; ++c) {
       const double k = own_share(beta, own.drag[c], own.unevenness[c], gain[c], viscosity);

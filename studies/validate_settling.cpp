@@ -1,0 +1,249 @@
+// Settling: a sphere alone in still fluid, against its own drag law, against experiments, and on finer and finer meshes.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "solver/coupling/drag_laws.hpp"
+#include "solver/coupling/self_disturbance.hpp"
+#include "studies/svg_plot.hpp"
+#include "studies/validation.hpp"
+
+namespace bedload {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// The sphere of a case, from the case alone.
+struct Sphere {
+  DragLawName law;
+  double diameter, density_ratio, viscosity, gravity, added_mass;
+
+  explicit Sphere(const FinishedCase& run)
+      : law(run.one.scene.drag),
+        diameter(run.input("grains.diameter")),
+        density_ratio(run.input("grains.density") / run.input("fluid.density")),
+        viscosity(run.input("fluid.viscosity")),
+        gravity(run.input("box.gravity")),
+        added_mass(run.one.scene.terms.added_mass ? 0.5 : 0) {}
+
+  double terminal() const { return terminal_speed(law, viscosity, density_ratio, diameter, gravity); }
+
+  /// dv/dt of a fall at v: (s + C_A) dv/dt = (s - 1) g - 18 nu F v/d^2.
+  double acceleration(double v) const {
+    const double f =
+        std::visit([&](const auto& l) { return l.multiplier(1, v * diameter / viscosity); }, drag_law(law));
+    return ((density_ratio - 1) * gravity - 18 * viscosity * f * v / (diameter * diameter)) /
+           (density_ratio + added_mass);
+  }
+  /// Speed at time t from rest: the ordinary differential equation by Runge & Kutta's fourth order.
+  double speed_at(double t) const {
+    constexpr int steps = 20000;
+    const double dt = t / steps;
+    double v = 0;
+    for (int n = 0; n < steps; ++n) {
+      const double a = acceleration(v), b = acceleration(v + dt / 2 * a), c = acceleration(v + dt / 2 * b),
+                   e = acceleration(v + dt * c);
+      v += dt / 6 * (a + 2 * b + 2 * c + e);
+    }
+    return v;
+  }
+  std::string name() const { return fmt::format("{}{}", name_of(law), added_mass > 0 ? ", added mass" : ""); }
+};
+
+double fall_speed(const Trajectory& path, double t) {
+  const std::size_t row = path.row_at(t * (1 - 1e-9));
+  return row < path.size() ? -path.velocity[row].z : nan;
+}
+
+// ---- From rest
+
+Findings from_rest(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  for (const auto& run : runs) {
+    const Sphere sphere(run);
+    const Trajectory path = trajectory_of(run, 0);
+    for (const double asked : {0.5e-3, 2e-3, 5e-3}) {
+      const std::size_t row = path.row_at(asked * (1 - 1e-9));
+      const double t = row < path.size() ? path.time[row] : nan;
+      found.rows.push_back({.name = fmt::format("speed after {:.2g} ms, {} [mm/s]", 1e3 * t, sphere.name()),
+                            .reference = 1e3 * sphere.speed_at(t),
+                            .source = "dv/dt of the law, Runge-Kutta",
+                            .ours = 1e3 * fall_speed(path, t),
+                            .band = Band::within(0.005)});
+    }
+    found.rows.push_back({.name = fmt::format("terminal speed, {} [mm/s]", sphere.name()),
+                          .reference = 1e3 * sphere.terminal(),
+                          .source = "W' = 3 pi mu d F U",
+                          .ours = -1e3 * path.velocity.back().z,
+                          .band = Band::within(0.001)});
+  }
+  return found;
+}
+
+// ---- Mordant & Pinton's spheres
+
+/// V (1 - exp(-3 t/tau)) was fitted to the measured falls.
+struct Measured {
+  int number;
+  double speed, time;   // V [m/s], tau [s]
+};
+
+Findings mordant(const std::vector<FinishedCase>& runs, const Measured& measured) {
+  Findings found;
+  for (const auto& run : runs) {
+    const Sphere sphere(run);
+    const Trajectory path = trajectory_of(run, 0);
+    const double band = sphere.law == DragLawName::di_felice ? 0.13 : 0.08;
+    found.rows.push_back({.name = fmt::format("sphere {}, terminal speed, {} [m/s]", measured.number, sphere.name()),
+                          .reference = measured.speed,
+                          .source = "Mordant & Pinton 2000",
+                          .ours = -path.velocity.back().z,
+                          .band = Band::within(band),
+                          .against = Against::experiment});
+    const std::size_t row = path.row_at(measured.time / 3);
+    const double t = row < path.size() ? path.time[row] : nan;
+    found.rows.push_back(
+        {.name = fmt::format("sphere {}, speed after {:.3g} ms, {} [m/s]", measured.number, 1e3 * t, sphere.name()),
+         .reference = sphere.speed_at(t),
+         .source = "dv/dt of the law, Runge-Kutta",
+         .ours = fall_speed(path, t),
+         .band = Band::within(0.005)});
+  }
+  return found;
+}
+
+// ---- The seed paper's Table 1
+
+/// Mean and ripple of the fall speed over the last four cells of fall, or the last half of a shorter one [m/s].
+struct LastCells {
+  double mean = nan, ripple = nan, growth = nan;   // growth: last cell (quarter) over the one before it, less one
+};
+
+LastCells last_cells(const Trajectory& path, double cell) {
+  LastCells seen;
+  const auto depth = [&](std::size_t n) { return path.position.front().z - path.position[n].z; };
+  const auto row = [&](double z) {
+    std::size_t n = 0;
+    while (n + 1 < path.size() && depth(n) < z) ++n;
+    return n;
+  };
+  const std::size_t end = path.size() - 1;
+  const double fallen = depth(end), window = std::min(4 * cell, 0.5 * fallen), part = window / 4;
+  const auto mean = [&](std::size_t a, std::size_t b) { return (depth(b) - depth(a)) / (path.time[b] - path.time[a]); };
+  const std::size_t begin = row(fallen - window), last = row(fallen - part), before = row(fallen - 2 * part);
+  if (last >= end || before >= last || begin >= before) return seen;
+  seen.mean = mean(begin, end);
+  seen.growth = mean(last, end) / mean(before, last) - 1;
+  seen.ripple = 0;
+  for (std::size_t n = last; n <= end; ++n)
+    seen.ripple = std::max(seen.ripple, std::abs(-path.velocity[n].z / mean(last, end) - 1));
+  return seen;
+}
+
+/// What a grain that is not freed of its own flow falls too fast, by the response of the grid alone: the fluid at the grain is
+/// carried along with r W'/nu whatever the slip (in Model A the grain also samples V S of its drag as stress).
+double known_error(const FinishedCase& run, const Sphere& sphere) {
+  const StaggeredGrid& grid = run.one.scene.grid;
+  const SelfDisturbance table(grid);
+  const Vec3 place = trajectory_of(run, 0).position.back();
+  const double volume = sphere_volume(sphere.diameter), weight = (sphere.density_ratio - 1) * sphere.gravity * volume;
+  const double law = sphere.terminal();
+  double carried = 0, stress = 0;
+  constexpr int places = 16;
+  for (int i = 0; i < places; ++i) {
+    const Vec3 x{place.x, place.y, (std::floor(place.z / grid.h.z) + (i + 0.5) / places) * grid.h.z};
+    double speed = law, k = 0;
+    for (int pass = 0; pass < 5;
+         ++pass) {   // the cell's Reynolds number is that of the fall less a third of its own flow
+      const OwnFlow own = table.at(x, {0, 0, speed}, sphere.viscosity);
+      k = own.drag.z * weight / (sphere.viscosity * law);
+      k -= k * k * own.unevenness.z;
+      speed = law * (1 + 2 * k / 3);
+      if (pass == 4) stress += volume / grid.cell_volume() * own.stress.z / places;
+    }
+    carried += k / places;
+  }
+  return carried - stress;
+}
+
+/// Seconds that OpenFOAM's own unresolved solver (DPMFoam, GAMG) takes for 500 fluid steps of this sphere on one core.
+double seconds_of_dpmfoam(std::size_t cells) {
+  return cells == 320 ? 0.44 : cells == 40000 ? 24 : cells == 320000 ? 274 : nan;
+}
+
+Findings table_of_meshes(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  for (const auto& run : runs) {
+    const Sphere sphere(run);
+    const StaggeredGrid& grid = run.one.scene.grid;
+    const double cells = grid.h.z / sphere.diameter, law = sphere.terminal(),
+                 stokes = terminal_speed(DragLawName::stokes, sphere.viscosity, sphere.density_ratio, sphere.diameter,
+                                         sphere.gravity);
+    const LastCells seen = last_cells(trajectory_of(run, 0), grid.h.z);
+    const bool corrected = run.one.scene.terms.self_disturbance;
+    const auto name = fmt::format("h = {:.3g} d, {}", cells, corrected ? "corrected" : "raw");
+    if (corrected) {
+      found.rows.push_back({.name = name + ": speed of fall [mm/s]",
+                            .reference = 1e3 * law,
+                            .source = "Di Felice's law; Re of the duct 45: walls not felt",
+                            .ours = 1e3 * seen.mean,
+                            .band = Band::within(0.01)});
+      found.rows.push_back({.name = name + ": ripple over a cell [-]",
+                            .reference = 0,
+                            .source = "a fall is smooth",
+                            .ours = seen.ripple,
+                            .band = Band::within_absolute(cells < 2 ? 0.03 : 0.01)});
+      found.rows.push_back({.name = name + ": growth over a cell [-]",
+                            .reference = 0,
+                            .source = "a fall at its terminal speed",
+                            .ours = seen.growth,
+                            .band = Band::within_absolute(0.005)});
+    } else {
+      found.rows.push_back({.name = name + ": error against the law [-]",
+                            .reference = known_error(run, sphere),
+                            .source = "response of the grid to its own force",
+                            .ours = seen.mean / law - 1,
+                            .band = Band::within_absolute(cells < 2 ? 0.05 : 0.015)});
+    }
+    found.rows.push_back({.name = name + ": error against Stokes [-]",
+                          .reference = law / stokes - 1,
+                          .source = "Di Felice's law over Stokes'",
+                          .ours = seen.mean / stokes - 1,
+                          .band = corrected ? Band::within_absolute(0.01) : Band::at_least()});
+    const double reference = seconds_of_dpmfoam(grid.cell_count());
+    if (std::isfinite(reference))
+      found.rows.push_back({.name = name + ": 500 fluid steps [core s]",
+                            .reference = reference,
+                            .source = "DPMFoam on one core: at most",
+                            .ours = run.core_seconds / static_cast<double>(run.fluid_steps) * 500,
+                            .band = Band::at_most(),
+                            .against = Against::experiment});
+  }
+  return found;
+}
+
+bool corrected_alone(const Case& one) { return one.scene.terms.self_disturbance; }
+
+}   // namespace
+
+std::vector<Rung> settling_rungs() {
+  const auto sphere = [](const Measured& measured) {
+    return [measured](const std::vector<FinishedCase>& runs) { return mordant(runs, measured); };
+  };
+  return {
+      {"settling-from-rest", "a sphere is let go in still water, three laws, with and without added mass", from_rest,
+       every_case},
+      {"settling-mordant-1", "sphere 1 of Mordant & Pinton, glass, 0.5 mm", sphere({1, 0.0741, 0.055}), every_case},
+      {"settling-mordant-2", "sphere 2 of Mordant & Pinton, glass, 1.5 mm", sphere({2, 0.218, 0.142}), every_case},
+      {"settling-mordant-4", "sphere 4 of Mordant & Pinton, steel, 0.8 mm", sphere({4, 0.316, 0.108}), every_case},
+      {"settling-table-25", "the seed paper's settling sphere, cells of 25 d", table_of_meshes, every_case},
+      {"settling-table-5", "the seed paper's settling sphere, cells of 5 d", table_of_meshes, corrected_alone},
+      {"settling-table-2_5", "the seed paper's settling sphere, cells of 2.5 d", table_of_meshes, {}},
+      {"settling-table-1_25", "the seed paper's settling sphere, cells of 1.25 d", table_of_meshes, {}},
+  };
+}
+
+}   // namespace bedload
