@@ -151,8 +151,10 @@ struct Coupler::Parts {
 
   bool failed() const { return !health.finite || health.lost_grain; }
   bool model_b() const { return scene.terms.model_b(); }
-  bool explicit_forces() const { return scene.terms.shear_lift || scene.terms.magnus || scene.terms.wall_forces; }
-  bool wants_vorticity() const { return scene.terms.viscous_torque || scene.terms.shear_lift || scene.terms.magnus; }
+  bool explicit_forces() const {
+    return scene.terms.shear_lift || scene.terms.magnus || scene.terms.wall_forces || scene.terms.exposure;
+  }
+  bool wants_vorticity() const { return scene.terms.viscous_torque || explicit_forces(); }
   double specific_mass(const Grains& g, std::size_t p) const {
     return sphere_volume(g.diameter[p]) * g.density[p] / scene.bed.fluid.density;
   }
@@ -174,6 +176,8 @@ struct Coupler::Parts {
   void solve_drag(State&, double dt);
   void book_exchange(const State&, double dt);
   void book_torques(const Grains&, double dt);
+  void book_drive_of_fluid(const State&);
+  void book_drive_of_grains(const State&, double dt);
   void give_contact_share(State&, double dt);
   void move_grains(State&, double dt);
   void deposit_at_new_positions(const State&, double dt);
@@ -447,6 +451,36 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
   book_exchange(state, dt);
   if (spin_exchange) book_torques(state.grains, dt);
   if (implicit) book_wall_shear(drag.change());
+  book_drive_of_fluid(state);
+}
+
+/// The lid's work on the fluid and G's, whose force moves with the mean of u^n and u*.
+void Coupler::Parts::book_drive_of_fluid(const State& state) {
+  books.driving_power = -books.on_lid.x * state.search.lid_speed;
+  const Vec3 g = drive(state);
+  for (int c = 0; c < 3; ++c) {
+    if (g[c] == 0) continue;
+    const double *eps = before.face.component(c), *u = state.fluid.velocity.component(c), *old = carried.component(c);
+    books.driving_power += scene.bed.fluid.density * grid.cell_volume() * g[c] *
+                           sum_over_faces(grid, c, [=, whole = model_b()](std::size_t n) {
+                             return (whole ? 1 : eps[n]) * 0.5 * (u[n] + old[n]);
+                           });
+  }
+}
+
+/// Weight's and G's work on the grains over the way they went.
+void Coupler::Parts::book_drive_of_grains(const State& state, double dt) {
+  const Grains& grains = state.grains;
+  const double rho = scene.bed.fluid.density;
+  double work = 0;
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    if (grains.fixed[p]) continue;
+    Vec3 force = grains.density[p] * weight(grains.density[p]);
+    force.x += state.search.push * norm(force);
+    if (!model_b()) force += rho * drive(state);
+    work += sphere_volume(grains.diameter[p]) * dot(force, moved[p]);
+  }
+  books.driving_power += work / dt;
 }
 
 /// The forces that the solve has found, into the grains' push and the books.
@@ -460,6 +494,7 @@ void Coupler::Parts::book_exchange(const State& state, double dt) {
     const Vec3 slip{difference.x / (1 + a.x), difference.y / (1 + a.y), difference.z / (1 + a.z)};   // u* - v'
     Vec3 force = scaled(flow.drag[p], slip);                                                         // per rho_f
     drag_force[p] = rho * force;
+    books.exchange_loss += rho * dot(force, slip);
     const double mass = specific_mass(grains, p);
     if (scene.terms.added_mass) {
       const Vec3 velocity = grains.fixed[p] ? Vec3{} : grains.velocity[p];
@@ -490,9 +525,13 @@ void Coupler::Parts::book_torques(const Grains& grains, double dt) {
   for (std::size_t p = 0; p < grains.size(); ++p) {
     const Vec3 turn = 0.5 * sample_edges(stencils[p], Strides(grid), vorticity);
     torque[p] = rho * spin_strength[p] / dt * (turn - spin_target[p]);
-    if (grains.fixed[p]) continue;
-    const double d = grains.diameter[p];
-    spin_push[p] = torque[p] / sphere_inertia(grains.density[p] * sphere_volume(d), d);
+    Vec3 slip = turn - spin_target[p];
+    if (!grains.fixed[p]) {
+      const double d = grains.diameter[p];
+      spin_push[p] = torque[p] / sphere_inertia(grains.density[p] * sphere_volume(d), d);
+      slip -= dt * spin_push[p];
+    }
+    books.exchange_loss += dot(torque[p], slip);
   }
   const auto walls = spin_exchange->on_walls(vorticity);
   books.on_bottom += rho / dt * walls.bottom, books.on_lid += rho / dt * walls.top;
@@ -521,6 +560,7 @@ void Coupler::Parts::move_grains(State& state, double dt) {
       if (x[c] < 0 || x[c] > length[c]) health.lost_grain = true;
     }
   }
+  book_drive_of_grains(state, dt);
   health.lost_grain |= health.grain_travel >= 1;   // more than the charge-conserving deposit can carry
   if (scene.terms.added_mass && !failed()) give_contact_share(state, dt);
 }

@@ -40,6 +40,9 @@ struct StepBooks {
   Vec3 on_lid;             // the same on the lid
   Vec3 driving;            // G on the fluid (and on grains, Model A), x and y
   Vec3 contact_on_walls;   // of grains on walls
+  /// Energy [W], means over the step. What drives: lid and G (that of the step's start) on the fluid, weight, push and, in
+  /// Model A, G on grains. What drag and viscous torque take from the motion of both phases: never negative.
+  double driving_power = 0, exchange_loss = 0;
 };
 
 /// Wall seconds spent in each part of the step since construction, for benchmarks and the run's closing line.

@@ -32,4 +32,7 @@ FaceFields face_void_fraction(const Scene&, const State&);
 /// Total momentum of fluid and grains [kg m/s].
 Vec3 total_momentum(const Scene&, const State&);
 
+/// Kinetic energy of fluid and grains, spin too [J].
+double kinetic_energy(const Scene&, const State&);
+
 }   // namespace bedload::test

@@ -93,23 +93,6 @@ TEST(ViscousTorque, OfGrainsThatDoNotTurnThickensTheFluid) {
   EXPECT_NEAR(thickening / (1 + 1.5 * phi / (1 - phi)), 1, 0.01);
 }
 
-/// Of fluid and grains, spin too [J].
-double kinetic_energy(const Scene& scene, const State& state) {
-  const FaceFields eps = face_void_fraction(scene, state);
-  double sum = 0;
-  for (int c = 0; c < 3; ++c)
-    sum += 0.5 * scene.bed.fluid.density * scene.grid.cell_volume() *
-           sum_over_faces(scene.grid, c, [e = eps.component(c), u = state.fluid.velocity.component(c)](std::size_t n) {
-             return e[n] * u[n] * u[n];
-           });
-  const Grains& g = state.grains;
-  for (std::size_t p = 0; p < g.size(); ++p) {
-    const double mass = g.density[p] * sphere_volume(g.diameter[p]);
-    sum += 0.5 * mass * norm2(g.velocity[p]) + 0.5 * sphere_inertia(mass, g.diameter[p]) * norm2(g.spin[p]);
-  }
-  return sum;
-}
-
 struct StiffCase {
   double viscous_steps;   // nu T/h^2
   bool fixed, drag;
