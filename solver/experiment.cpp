@@ -6,6 +6,7 @@
 
 #include "solver/bed/bed_surface.hpp"
 #include "solver/bed/incipient_motion.hpp"
+#include "solver/bed/turbulent_flow.hpp"
 #include "solver/bed_recorder.hpp"
 #include "solver/grains/bed_packing.hpp"
 #include "solver/initial_flow.hpp"
@@ -197,8 +198,19 @@ void Experiment::Parts::add_steady_flow(State& state, const ImposedFlow& change)
   const StaggeredGrid& grid = scene.grid;
   if (!grid.periodic(0) || grid.periodic(2))
     return;   // between end walls, or without bottom and top, the flow is not this one
+  const double z_b = state.search.bed_height;
+  std::vector<double> before_it, after_it;
+  if (scene.terms.turbulence) {   // not linear in what drives it
+    const Search& s = state.search;
+    const ImposedFlow old{.lid_speed = s.lid_speed, .gradient = s.gradient},
+        now{.lid_speed = s.lid_speed + change.lid_speed, .gradient = s.gradient + change.gradient};
+    before_it = turbulent_flow(scene, z_b, friction_speed_of(scene, old, z_b)).planes;
+    after_it = turbulent_flow(scene, z_b, friction_speed_of(scene, now, z_b)).planes;
+  }
   for (int k = 0; k < grid.cells[2]; ++k) {
-    const double more = steady_increment(scene, change, state.search.bed_height, (k + 0.5) * grid.h.z);
+    const auto n = static_cast<std::size_t>(k);
+    const double more = scene.terms.turbulence ? after_it[n] - before_it[n]
+                                               : steady_increment(scene, change, z_b, (k + 0.5) * grid.h.z);
     for (int i = 0; i < grid.cells[0]; ++i)
       for (int j = 0; j < grid.cells[1]; ++j) state.fluid.velocity.x[grid.index(i, j, k)] += more;
   }

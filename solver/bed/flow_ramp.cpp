@@ -1,9 +1,12 @@
 // Shields number to lid speed or driving gradient, and back.
 #include "solver/bed/flow_ramp.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "solver/bed/turbulent_flow.hpp"
 #include "solver/scene.hpp"
 
 namespace bedload {
@@ -44,14 +47,27 @@ ImposedFlow imposed_flow(const Scene& scene, std::uint64_t hold, double bed_heig
   const double per_drive = has_bed_stress ? bed_stress_per_drive(scene, gap_above(scene, bed_height)) : 0;
   const double stress = shields_stress(scene.bed.fluid, scene.bed.grains, norm(scene.bed.gravity));
 
+  ImposedFlow flow;
+  if (scene.terms.turbulence && has_bed_stress && ramp.kind == FlowRamp::Kind::lid) {
+    const bool by_speed = ramp.quantity == FlowRamp::Quantity::lid_speed;
+    const double friction_speed =
+        by_speed ? friction_speed_under_lid(scene, bed_height, level) : std::sqrt(level * stress / density);
+    flow.lid_speed = by_speed ? level : turbulent_flow(scene, bed_height, friction_speed).lid_speed;
+    flow.shields = stress > 0 ? density * friction_speed * std::abs(friction_speed) / stress : 0;
+    return flow;
+  }
   double drive = level;
   if (ramp.quantity == FlowRamp::Quantity::shields) drive = level * stress / (density * per_drive);
   if (ramp.quantity == FlowRamp::Quantity::gradient) drive = level / density;   // [Pa/m] per mass of fluid
-
-  ImposedFlow flow;
   flow.shields = stress > 0 ? density * per_drive * drive / stress : 0;
   (ramp.kind == FlowRamp::Kind::lid ? flow.lid_speed : flow.gradient) = drive;
   return flow;
+}
+
+double friction_speed_of(const Scene& scene, const ImposedFlow& flow, double bed_height) {
+  if (scene.drive.kind == FlowRamp::Kind::lid) return friction_speed_under_lid(scene, bed_height, flow.lid_speed);
+  const double stress = bed_stress_per_drive(scene, gap_above(scene, bed_height)) * flow.gradient;
+  return std::copysign(std::sqrt(std::abs(stress)), stress);
 }
 
 double steady_increment(const Scene& scene, const ImposedFlow& change, double bed_height, double z) {

@@ -36,12 +36,15 @@ struct GrainProperties;
 double shields_stress(const FluidProperties&, const GrainProperties&, double gravity);
 
 /// The lid speed and gradient that level `hold` means over a bed whose surface is at z_b [m].
-/// Lid: tau_b = rho_f nu U/(H - z_b). Pressure: tau_b = rho_f G (H - z_b), half of it under a lid at rest.
+/// Lid: tau_b = rho_f nu U/(H - z_b), with turbulence that of turbulent_flow(). Pressure: tau_b = rho_f G (H - z_b), half of it under a lid at rest.
 /// Refuses (study_invalid) a bed that fills its box.
 ImposedFlow imposed_flow(const Scene&, std::uint64_t hold, double bed_height);
 
 /// What a change of the imposed flow adds, once steady, to the velocity at height z above a bed of height z_b [m/s]:
 /// linear under a lid, parabolic under a gradient (no stress at a free-slip top, no slip at a lid), nothing below z_b.
 double steady_increment(const Scene&, const ImposedFlow& change, double bed_height, double z);
+
+/// u* [m/s] that a flow, once steady, has at the bed; for scenes with turbulence.
+double friction_speed_of(const Scene&, const ImposedFlow&, double bed_height);
 
 }   // namespace bedload

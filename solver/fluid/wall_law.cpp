@@ -32,4 +32,11 @@ double wall_stress(double speed, double distance, double viscosity, double sand_
   return stress;
 }
 
+double wall_speed(double friction_speed, double distance, double viscosity, double sand_roughness) {
+  const double y = friction_speed * distance / viscosity;
+  const double smooth = y > sublayer_edge ? std::log(y) / von_karman + smooth_wall_intercept : y;
+  if (sand_roughness <= 0) return friction_speed * smooth;
+  return friction_speed * std::min(smooth, std::log1p(distance / roughness_length(sand_roughness)) / von_karman);
+}
+
 }   // namespace bedload

@@ -13,5 +13,7 @@ constexpr double roughness_length(double sand_roughness) { return sand_roughness
 /// Smooth: u+ = y+ up to y+ = 11.06, u+ = ln(y+)/kappa + B beyond (one wall unit: nu/u*). Rough:
 /// u/u* = ln((y + z0)/z0)/kappa, where that is the larger stress: a wall is never smoother than smooth.
 double wall_stress(double speed, double distance, double viscosity, double sand_roughness);
+/// The inverse: the speed [m/s] at that distance over a wall that bears the stress u*^2 of `friction_speed` [m/s].
+double wall_speed(double friction_speed, double distance, double viscosity, double sand_roughness);
 
 }   // namespace bedload
