@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "studies/svg_plot.hpp"
 #include "studies/validation.hpp"
 
 namespace bedload {
@@ -28,6 +29,24 @@ double push_at_departure(const FinishedCase& run, double x) {
   return hold == 0 || hold >= levels.size() ? nan : 0.5 * (levels[hold] + levels[hold - 1]);
 }
 
+std::string departure_figure(const std::vector<FinishedCase>& runs, const std::vector<ValidationRow>& rows,
+                             double to_saddle, double height) {
+  const auto exact = [&](double slope) { return to_saddle / height * std::cos(slope) - std::sin(slope); };
+  SvgPlot plot(640, 300, {"tilt of the bed along the push [deg]", -15, 15}, {"push over submerged weight", 0, 1}, 190);
+  std::vector<PlotPoint> curve;
+  for (int b = -15; b <= 15; ++b) curve.push_back({double(b), exact(b * std::numbers::pi / 180)});
+  plot.line(curve, {"#333", 1.5, ""});
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    const bool rolls = runs[n].input("grains.friction") > 0;
+    plot.marker({degrees(runs[n].input("box.slope")), rows[n].ours}, rolls ? Marker::square : Marker::circle, "#0b6e99",
+                !rolls, fmt::format("{:.4g}", rows[n].ours));
+  }
+  plot.legend_line("tan a cos b - sin b", {"#333", 1.5, ""});
+  plot.legend_marker("bead slides", Marker::circle, "#0b6e99", true);
+  plot.legend_marker("bead rolls", Marker::square, "#0b6e99", false);
+  return plot.svg();
+}
+
 /// Where grain 0 leaves its pocket: at the saddle between two of the beads below, half of the way to the next pocket.
 /// `to_saddle` and `height`: from the centres of these beads, per diameter.
 Findings departures(const std::vector<FinishedCase>& runs, double to_saddle, double height) {
@@ -43,6 +62,10 @@ Findings departures(const std::vector<FinishedCase>& runs, double to_saddle, dou
                           .ours = push_at_departure(run, saddle),
                           .band = Band::within(0.01)});
   }
+  found.figures.push_back(
+      {fmt::format("onset-pocket-of-{}", beads(to_saddle)),
+       fmt::format("The push at which a bead leaves a pocket of {}, over the tilt of the bed.", beads(to_saddle)),
+       departure_figure(runs, found.rows, to_saddle, height)});
   return found;
 }
 
