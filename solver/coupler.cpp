@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "solver/coupling/added_mass.hpp"
+#include "solver/coupling/explicit_forces.hpp"
 #include "solver/coupling/hydrodynamic_forces.hpp"
 #include "solver/coupling/implicit_drag.hpp"
 #include "solver/coupling/mixture_response.hpp"
@@ -135,6 +136,7 @@ struct Coupler::Parts {
   FaceFields kick, carried;
   TransportScratch transport_scratch;
   FlowAtGrains flow;
+  Sheltering sheltering;
   std::vector<Vec3> exchange, relaxation, ballistic, flow_velocity, push, moved, drag_force;
   // Only where the terms need them: C_A V_p [m3] and rho_f C_A V_p [kg] of every grain, what the fluid gets of them.
   std::vector<double> added_volume, added_mass;
@@ -151,9 +153,7 @@ struct Coupler::Parts {
 
   bool failed() const { return !health.finite || health.lost_grain; }
   bool model_b() const { return scene.terms.model_b(); }
-  bool explicit_forces() const {
-    return scene.terms.shear_lift || scene.terms.magnus || scene.terms.wall_forces || scene.terms.exposure;
-  }
+  bool explicit_forces() const { return any_explicit(scene.terms); }
   bool wants_vorticity() const { return scene.terms.viscous_torque || explicit_forces(); }
   double specific_mass(const Grains& g, std::size_t p) const {
     return sphere_volume(g.diameter[p]) * g.density[p] / scene.bed.fluid.density;
@@ -284,12 +284,15 @@ void Coupler::Parts::sample_at_grains(State& state) {
   sample_flow(grid, state.grains, stencils, state.fluid.velocity, acceleration, before.centre, law,
               scene.bed.fluid.viscosity, scene.terms, flow);
   health.void_clamps = flow.void_clamps;
+  health.disturbance_clamps = flow.disturbance_clamps;
   if (!wants_vorticity()) return;
   find_vorticity(grid, carried, vorticity);
   extend_edge_samples(grid, vorticity);
   flow.vorticity.resize(stencils.size());
   for (std::size_t p = 0; p < stencils.size(); ++p)
     flow.vorticity[p] = sample_edges(stencils[p], Strides(grid), vorticity);
+  add_explicit_forces({grid, PeriodicBox(scene.bed), scene.bed.fluid.viscosity, state.search.lid_speed}, state.grains,
+                      scene.terms, sheltering, flow);
 }
 
 void Coupler::Parts::shorten(double& step, double limit, StepLimit by) {
