@@ -26,7 +26,7 @@ constexpr double spinning = 0.1;           // omega d/(2 w)
 constexpr double inertial = 1;             // Re of a grain below which spin deflects nothing
 constexpr double dry_impact = 2000;        // impact Stokes number
 constexpr double near_wall = 0.05;         // a/z
-constexpr double small_grain = 0.02;       // d/h
+constexpr double own_flow = 0.01;          // kappa: 1 % of a speed; d/h = 0.015 in slow flow
 constexpr double loss_per_stokes = 35;     // ln of the restitution a film takes is 35/St
 
 /// What every rule reads.
@@ -84,17 +84,18 @@ ModelChoice viscous_stress(const Facts& f) {
 }
 
 ModelChoice self_disturbance(const Facts& f) {
-  const double size = f.diameter() / f.edge(), share = f.n.self_response;
-  const bool lone = loneness(f.grains.loosest) > 0;
-  const auto why = !lone ? fmt::format("no lone grain: a packing of at least {:.2g} around every one", f.grains.loosest)
-                         : fmt::format("d/h = {:.2g} {} {:g}: {:.2g} of a lone grain's drag comes back to it as flow",
-                                       size, side(size > small_grain), small_grain, share);
-  const double fast = share < 1 ? 100 * share / (1 - share) : no_number;
-  return {.wanted = f.grains.any && lone && size > small_grain,
-          .ratio = lone ? share : no_number,
-          .reason = fmt::format("{}; without it a lone grain {}", why,
-                                share < 1 ? fmt::format("falls about {:.2g} % too fast", fast)
-                                          : std::string("feels no drag worth the name"))};
+  const double share = f.n.self_response;
+  if (loneness(f.grains.loosest) == 0)
+    return {.ratio = no_number,
+            .reason = fmt::format("no lone grain: a packing of at least {:.2g} around every one", f.grains.loosest)};
+  const auto worth = share < 1 ? fmt::format("falls about {:.2g} % too fast", 100 * share / (1 - share))
+                               : std::string("feels no drag worth the name");
+  return {.wanted = share > own_flow,
+          .ratio = share,
+          .reason = fmt::format(
+              "kappa = {:.2g} ({} {:g}) of a lone grain's drag comes back to it as flow, cells of {:.2g} d; "
+              "without it a lone grain {}",
+              share, side(share > own_flow), own_flow, f.edge() / f.diameter(), worth)};
 }
 
 ModelChoice added_mass(const Facts& f) {
@@ -157,7 +158,7 @@ ModelChoice wall_forces(const Facts& f) {
     return {.ratio = 0,
             .reason = fmt::format("{}: a drag law for many grains knows the neighbours",
                                   loneness(f.grains.loosest) > 0 && !f.grains.bed ? "no plane wall near a lone grain"
-                                                                             : "no lone grain beside a wall")};
+                                                                                  : "no lone grain beside a wall")};
   return {
       .wanted = k > near_wall,
       .ratio = ratio,

@@ -26,8 +26,9 @@ double weight_per_mass(const Scene& scene) {   // submerged, per mass of fluid [
   return std::abs(s - 1) * norm(scene.bed.gravity);
 }
 
-/// Laminar shear rate at the bed or bottom that a level of the drive imposes [1/s].
-double shear_of_level(const Scene& scene, std::size_t level, double height, double gap) {
+/// Shear rate at the bed or bottom that a level of the drive means in laminar flow, whether turbulence is on or not [1/s].
+double shear_of_level(Scene scene, std::size_t level, double height, double gap) {
+  scene.terms.turbulence = false;
   const auto flow = imposed_flow(scene, level, height);
   if (scene.drive.kind == Kind::lid) return std::abs(flow.lid_speed) / gap;
   return std::abs(flow.gradient) * (scene.bed.top == Top::free_slip ? gap : gap / 2) / scene.bed.fluid.viscosity;
@@ -72,9 +73,11 @@ void flow_numbers(const Scene& scene, const GrainCensus& census, SceneNumbers& n
   const double first = shear_of_level(scene, 0, height, n.gap);
   n.shear_rate = first;
   if (census.any) {
-    n.lowest_shields = shields_of_shear(scene, first);
-    n.highest_shields = shields_of_shear(scene, shear_of_level(scene, scene.drive.levels.size() - 1, height, n.gap));
-    if (census.bed && census.mobile && n.lowest_shields < quoted_shields)
+    const double first_shields = shields_of_shear(scene, first);
+    const auto imposed = [&](std::size_t level) { return std::abs(imposed_flow(scene, level, height).shields); };
+    if (weight_per_mass(scene) > 0)
+      n.lowest_shields = imposed(0), n.highest_shields = imposed(scene.drive.levels.size() - 1);
+    if (census.bed && census.mobile && first_shields < quoted_shields)
       n.shear_rate = quoted_shields * weight_per_mass(scene) * d / nu;
     n.shields = shields_of_shear(scene, n.shear_rate);
     n.friction_reynolds = std::sqrt(n.shear_rate / nu) * d;

@@ -167,24 +167,6 @@ void holds(const Facts& f, Found& found) {
        fmt::format("a dwell of at least \"{:.2g} s\"", settle)});
 }
 
-/// What a hold imposes, and begins with, is the laminar flow of its level.
-void laminar_levels(const Facts& f, Found& found) {
-  if (!f.scene.terms.turbulence || !is_sheared(f.scene) || !is_turbulent(f.scene, f.n)) return;
-  if (f.scene.drive.kind == Kind::lid && f.scene.drive.quantity == FlowRamp::Quantity::shields)
-    found.push_back(
-        {"drive.kind",
-         "the lid's speed of each level is that of a laminar flow; the turbulent one puts a larger stress on the "
-         "bed: only measured Shields numbers count",
-         "kind = \"pressure\" imposes the stress itself; or give drive.speed"});
-  if (f.scene.developed)
-    found.push_back(
-        {"drive.start",
-         fmt::format("each hold begins with the laminar flow of its level, here {:.3g} m/s, which turbulence must "
-                     "wear down first",
-                     f.n.flow_speed),
-         "start = \"rest\""});
-}
-
 /// Overlap at the bottom, (G14): delta/d = [(pi/2) (1 - nu^2) N (rho_p - rho_f) g d/Y]^(2/3).
 void stiffness(const Facts& f, Found& found) {
   const auto& bed = f.scene.bed;
@@ -229,7 +211,7 @@ std::vector<SceneProblem> range_problems_of(const Scene& scene) {
   const Facts facts{scene, census, numbers_of(scene, census)};
   Found found;
   for (const auto check : {laminar_assumed, drag_law_reynolds, drag_law_packing, small_grains, cells_and_lone_grains,
-                           cells_at_a_bed, slope, depth, holds, laminar_levels, stiffness, laws_of_lift, idle_drive})
+                           cells_at_a_bed, slope, depth, holds, stiffness, laws_of_lift, idle_drive})
     check(facts, found);
   return found;
 }

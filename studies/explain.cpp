@@ -70,7 +70,8 @@ Rows scene_numbers(const Scene& scene) {
   add("highest Shields number", n.highest_shields, "");
   add("Re*" + at, n.friction_reynolds, "");
   add("shear Reynolds number Re_g" + at, n.shear_reynolds, "");
-  add((lid ? "lid speed" : "mean speed") + at, n.flow_speed, "m/s");
+  add((scene.terms.turbulence ? "laminar " : "") + std::string(lid ? "lid speed" : "mean speed") + at, n.flow_speed,
+      "m/s");
   add("gap Reynolds number" + at, n.gap_reynolds, "");
   add("impact speed" + at, n.impact_speed, "m/s");
   add("impact Stokes number" + at, n.impact_stokes, "");

@@ -46,7 +46,7 @@ TEST(Examples, SeedErosionGetsAVerdictOnEveryTerm) {
   const auto said = unwrapped(plan_of("seed-erosion").out);
   for (const auto* part :
        {"drag yes yes 1.74", "buoyancy yes yes 0.3333", "pressure_gradient no yes 0.5", "viscous_stress no yes 0.5",
-        "self_disturbance no yes", "added_mass no yes 0.1429", "shear_lift no yes", "magnus no yes",
+        "self_disturbance no no 0.004", "added_mass no yes 0.1429", "shear_lift no yes", "magnus no yes",
         "viscous_torque no yes 1.2", "wall_forces no no", "wet_restitution no yes", "lubrication no no",
         "exposure no no", "turbulence no yes 300", "rolling_friction no no", "Galileo number Ga 140.1",
         "models.terms leaves out what the rules want"})

@@ -209,6 +209,19 @@ TEST(RequiredModels, SayNothingOfShearWhereNothingDrivesTheFluid) {
   EXPECT_FALSE(choice(scene, "turbulence").wanted);
 }
 
+// The seed of self-disturbance is d/h; a fast grain leaves its own flow behind.
+TEST(RequiredModels, WantNoSelfDisturbanceOfFastGrainsOrInLargeCells) {
+  auto scene = settling_sphere();
+  EXPECT_TRUE(choice(scene, "self_disturbance").wanted);
+  const double slow = choice(scene, "self_disturbance").ratio;
+  scene.bed.fluid.viscosity = 1e-7;
+  EXPECT_LT(choice(scene, "self_disturbance").ratio, 0.5 * slow);
+  scene = settling_sphere();
+  scene.grid = {.cells = {3, 3, 3}, .h = {1e-2, 1e-2, 1e-2}, .sides = scene.bed.sides};
+  EXPECT_LT(choice(scene, "self_disturbance").ratio, 0.01);
+  EXPECT_FALSE(choice(scene, "self_disturbance").wanted);
+}
+
 TEST(RequiredModels, OfOnePouredGrainAreThoseOfALoneOne) {
   auto scene = laminar_bed();
   scene.bed.source.count = 1;
@@ -288,10 +301,7 @@ INSTANTIATE_TEST_SUITE_P(
         Strange{"short holds from rest", [](Scene& s) { s.developed = false, s.drive.dwell = 0.05; }, "drive.dwell",
                 "over the gap"},
         Strange{"soft grains", [](Scene& s) { s.bed.grains.young_modulus = 1e4; }, "grains.stiffness", "overlap"},
-        Strange{"no drag", [](Scene& s) { s.terms.drag = false; }, "drive.kind", "moves no grain"},
-        Strange{"turbulence laid on as laminar",
-                [](Scene& s) { s.bed.fluid.viscosity = 1e-6, s.terms.turbulence = true; }, "drive.start",
-                "wear down"}));
+        Strange{"no drag", [](Scene& s) { s.terms.drag = false; }, "drive.kind", "moves no grain"}));
 
 // 3 pi 0.073 d/h in cells narrower than grains: 0.86 of the drag of a slow grain comes back, 0.69 in cubes of 1 d.
 TEST(SceneRange, TellsWhenCellsAreTooSmallForLoneGrains) {
