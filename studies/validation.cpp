@@ -18,6 +18,7 @@ namespace {
 constexpr ValidationGroup groups[] = {
     {"contact", "collisions, friction and rolling of one or two grains, dry and wet", contact_rungs},
     {"settling", "a sphere alone in still fluid, on many meshes", settling_rungs},
+    {"bed", "what the drag of many grains adds up to: beds, suspensions, flow over a bed", bed_rungs},
     {"fluid", "flows without grains, laminar and turbulent", fluid_rungs},
     {"onset", "what it takes to move a grain out of its place", onset_rungs},
 };

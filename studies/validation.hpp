@@ -89,6 +89,7 @@ struct ValidationGroup {
 };
 
 std::vector<Rung> contact_rungs();    // validate_contact.cpp
+std::vector<Rung> bed_rungs();        // validate_bed.cpp
 std::vector<Rung> fluid_rungs();      // validate_fluid.cpp
 std::vector<Rung> onset_rungs();      // validate_onset.cpp
 std::vector<Rung> settling_rungs();   // validate_settling.cpp

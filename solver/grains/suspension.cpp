@@ -115,16 +115,10 @@ class CellList {
   std::vector<std::vector<std::uint32_t>> members_;
 };
 
-/// The first `count` of a random permutation of the crystal's sites (Fisher and Yates).
-std::vector<Vec3> choose_sites(const Crystal& crystal, std::uint64_t count, std::uint64_t seed) {
-  std::vector<std::uint32_t> order(crystal.sites());
-  for (std::uint32_t n = 0; n < order.size(); ++n) order[n] = n;
-  RandomStream random(seed, Stream::grain_place);
+/// As many of the crystal's sites as there are grains, the vacancies spread evenly.
+std::vector<Vec3> choose_sites(const Crystal& crystal, std::uint64_t count) {
   std::vector<Vec3> places(count);
-  for (std::uint64_t n = 0; n < count; ++n) {
-    std::swap(order[n], order[n + static_cast<std::uint64_t>(random.uniform() * double(order.size() - n))]);
-    places[n] = crystal.site(order[n]);
-  }
+  for (std::uint64_t n = 0; n < count; ++n) places[n] = crystal.site(n * crystal.sites() / count);
   return places;
 }
 
@@ -134,7 +128,7 @@ std::vector<Vec3> places_in_suspension(const BedScene& scene, const std::vector<
   if (diameters.empty()) return {};
   const double largest = std::ranges::max(diameters);
   const Crystal crystal = crystal_for(scene, diameters.size(), largest);
-  auto places = choose_sites(crystal, diameters.size(), scene.source.seed);
+  auto places = choose_sites(crystal, diameters.size());
 
   const PeriodicBox box(scene);
   CellList cells(scene, largest);

@@ -7,7 +7,7 @@
 
 namespace bedload {
 
-/// Places [m] of grains of these diameters [m]: a face-centred cubic arrangement with random vacancies that fills the box,
+/// Places [m] of grains of these diameters [m]: a face-centred cubic arrangement with vacancies that fills the box,
 /// then hard-sphere Monte Carlo moves (Metropolis et al. 1953, J. Chem. Phys. 21, 1087) until its order is lost; above a
 /// solid fraction of about one half, where hard spheres crystallise, what remains is a shaken crystal. Deterministic in
 /// (scene, diameters). Refuses (study_invalid) more grains than a crystal of the largest has room for.

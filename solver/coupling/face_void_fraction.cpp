@@ -1,0 +1,15 @@
+#include "solver/coupling/face_void_fraction.hpp"
+
+#include "solver/coupling/void_fraction.hpp"
+
+namespace bedload {
+
+FaceFields face_void_fraction(const StaggeredGrid& grid, const Grains& grains) {
+  std::vector<Stencil> stencils;
+  find_stencils(grid, grains, stencils);
+  VoidFraction eps(grid);
+  deposit_void_fraction(grid, grains, stencils, eps);
+  return eps.face;
+}
+
+}   // namespace bedload

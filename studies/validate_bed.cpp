@@ -1,0 +1,380 @@
+// Beds and suspensions: what the drag of many grains adds up to.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "solver/bed/bed_profiles.hpp"
+#include "solver/coupling/face_void_fraction.hpp"
+#include "studies/svg_plot.hpp"
+#include "studies/validation.hpp"
+
+namespace bedload {
+
+namespace {
+
+constexpr const char* di_felice_source = "Di Felice 1994";
+
+/// Multiplier of the Stokes drag, Di Felice (1994) on Dallavalle's drag coefficient; re is superficial.
+double di_felice(double eps, double re) {
+  const double coefficient = std::pow(0.63 + 4.8 / std::sqrt(re), 2) * re / 24;
+  const double chi = 3.7 - 0.65 * std::exp(-std::pow(1.5 - std::log10(re), 2) / 2);
+  return coefficient * std::pow(eps, -chi);
+}
+
+/// Gradient per flux of a bed, G d^2/(mu U), by Di Felice or by Ergun (1952).
+double gradient_per_flux(const std::string& law, double eps, double re) {
+  const double phi = 1 - eps;
+  if (law == "ergun") return 150 * phi * phi / (eps * eps * eps) + 1.75 * phi * re / (eps * eps * eps);
+  return 18 * phi * di_felice(eps, re) / eps;
+}
+
+/// Volume flux of fluid along x per area [m/s].
+double flux_along_x(const FinishedCase& run) {
+  const StaggeredGrid& grid = run.one.scene.grid;
+  const FaceFields eps = face_void_fraction(grid, run.state.grains);
+  double sum = 0;
+  for (int i = 0; i < grid.cells[0]; ++i)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int k = 0; k < grid.cells[2]; ++k) {
+        const auto n = grid.index(i, j, k);
+        sum += eps.x[n] * run.state.fluid.velocity.x[n];
+      }
+  return sum / double(grid.cell_count());
+}
+
+double solid_fraction_of_box(const FinishedCase& run) {
+  const Vec3 box = run.one.scene.bed.length;
+  double solid = 0;
+  for (const double d : run.state.grains.diameter) solid += sphere_volume(d);
+  return solid / (box.x * box.y * box.z);
+}
+
+// ---- Uniform fixed beds
+
+constexpr double uniform = 0.01, random_positions = 0.02;   // bands: a crystal, and grains placed at random
+
+/// Beyond a void fraction of about one half the grains have lost the order of a crystal.
+Findings packed_bed(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  for (const auto& run : runs) {
+    const double d = run.input("grains.diameter"), nu = run.input("fluid.viscosity"), flux = flux_along_x(run);
+    const double eps = 1 - solid_fraction_of_box(run), re = flux * d / nu;
+    const auto& law = run.one.inputs.word("models.drag");
+    const double gradient = run.input("drive.gradient.from") / run.input("fluid.density");
+    found.rows.push_back({.name = fmt::format("eps {:.2f}, Re {:.2g}, {}, Model {}: gradient [mu U/d2]", eps, re, law,
+                                              run.one.scene.terms.model_b() ? "B" : "A"),
+                          .reference = gradient_per_flux(law, eps, re),
+                          .source = law == "ergun" ? "Ergun 1952" : di_felice_source,
+                          .ours = gradient * d * d / (nu * flux),
+                          .band = Band::within(eps > 0.55 ? random_positions : uniform)});
+  }
+  return found;
+}
+
+bool quick_packed(const Case& one) {
+  const double phi = double(one.scene.bed.source.count) * std::numbers::pi / 6 / 1000;
+  return (phi < 0.45 || phi > 0.62) &&
+         (one.inputs.number("drive.gradient.from") < 2 || one.inputs.number("drive.gradient.from") > 5e4);
+}
+
+// ---- Hindered settling
+
+Findings frozen_suspension(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  std::map<std::pair<double, double>, double> plain;   // mean drag by (count, flux), without self_disturbance
+  const auto drag_of = [](const FinishedCase& run) {
+    double sum = 0;
+    for (const Vec3& f : run.drag) sum += f.z;
+    return sum / double(run.drag.size());
+  };
+  for (const auto& run : runs) {
+    const double d = run.input("grains.diameter"), nu = run.input("fluid.viscosity");
+    const double flux = run.input("drive.through_flow.from"), eps = 1 - solid_fraction_of_box(run), re = flux * d / nu;
+    const double stokes = 3 * std::numbers::pi * run.input("fluid.density") * nu * d * flux, drag = drag_of(run);
+    const auto place = std::pair(double(run.drag.size()), flux);
+    const auto name = fmt::format("frozen, phi {:.2f}, Re {:.3g}", 1 - eps, re);
+    if (!run.one.scene.terms.self_disturbance) {
+      plain[place] = drag;
+      found.rows.push_back({.name = name + ": mean drag [3 pi mu d U]",
+                            .reference = di_felice(eps, re),
+                            .source = di_felice_source,
+                            .ours = drag / stokes,
+                            .band = Band::within(random_positions)});
+    } else if (plain.contains(place)) {
+      found.rows.push_back({.name = name + ": the same with self_disturbance [without it]",
+                            .reference = 1,
+                            .source = "a correction for lone grains leaves suspensions alone",
+                            .ours = drag / plain[place],
+                            .band = Band::within(0.001)});
+    }
+  }
+  return found;
+}
+
+/// Speed of a lone grain by the law [m/s].
+double lone_speed(const FinishedCase& run) {
+  const double d = run.input("grains.diameter"), nu = run.input("fluid.viscosity");
+  const double stokes =
+      (run.input("grains.density") / run.input("fluid.density") - 1) * run.input("box.gravity") * d * d / (18 * nu);
+  double low = 0, high = 2 * stokes;
+  for (int halving = 0; halving < 200; ++halving) {
+    const double speed = (low + high) / 2;
+    (di_felice(1, speed * d / nu) * speed < stokes ? low : high) = speed;
+  }
+  return low;
+}
+
+/// What the law gives for U/U_t: 3 pi mu d F(eps, Re) U = eps W', U the flux of fluid past the grains.
+double hindered_speed(const FinishedCase& run, double eps) {
+  const double d = run.input("grains.diameter"), nu = run.input("fluid.viscosity"), alone = lone_speed(run);
+  const double weight = di_felice(1, alone * d / nu) * alone;
+  double low = 0, high = alone;
+  for (int halving = 0; halving < 200; ++halving) {
+    const double speed = (low + high) / 2;
+    (di_felice(eps, speed * d / nu) * speed < eps * weight ? low : high) = speed;
+  }
+  return low / alone;
+}
+
+Findings free_suspension(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  std::map<double, std::vector<PlotPoint>> seen, law;   // by lone grain's Reynolds number
+  for (const auto& run : runs) {
+    double fall = 0;
+    for (const Vec3& v : run.state.grains.velocity) fall -= v.z;
+    fall /= double(run.state.grains.size());
+    const double phi = solid_fraction_of_box(run), alone = lone_speed(run);
+    const double re = alone * run.input("grains.diameter") / run.input("fluid.viscosity");
+    const double expected = hindered_speed(run, 1 - phi);
+    found.rows.push_back({.name = fmt::format("free, Re_t {:.3g}, phi {:.2f}: U/U_t [-]", re, phi),
+                          .reference = expected,
+                          .source = "Di Felice 1994, zero net flux",
+                          .ours = fall / alone,
+                          .band = Band::within(0.1)});
+    const double key = std::round(1e3 * re) / 1e3;
+    seen[key].push_back({phi, fall / alone}), law[key].push_back({phi, expected});
+  }
+  SvgPlot plot(640, 330, {"solid fraction", 0, 0.55}, {"settling speed / lone grain's", 0, 1}, 190);
+  constexpr const char* colours[] = {"#1b6ca8", "#b5442b", "#3a7d44"};
+  std::size_t n = 0;
+  for (const auto& [re, points] : seen) {
+    const auto* colour = colours[n++ % std::size(colours)];
+    plot.line(law[re], {colour, 1.5, ""});
+    for (const auto& p : points) plot.marker(p, Marker::circle, colour, true, fmt::format("{:.3g}", p.y));
+    plot.legend_marker(fmt::format("Re_t = {:.3g}", re), Marker::circle, colour, true);
+  }
+  plot.legend_line("Di Felice 1994", {"#333", 1.5, ""});
+  found.figures.push_back({"hindered-settling",
+                           "Settling speed of a suspension against its solid fraction: runs (points) and what the drag "
+                           "law of Di Felice (1994) gives at zero net volume flux (lines).",
+                           plot.svg()});
+  return found;
+}
+
+// ---- Fluidisation
+
+/// Fluid rising through the free part of a bed, from two diameters above its fixed layer to the clear fluid over it, by
+/// plane means: what its pressure drops, what its grains weigh, and what the drag law takes at the bed's own porosity.
+struct RisingFlow {
+  double drop = 0;     // measured [Pa]
+  double weight = 0;   // submerged, per area [Pa]
+  double drag = 0;     // by the law [Pa]
+  double flux = 0;     // [m/s]
+};
+
+RisingFlow rising_flow(const FinishedCase& run) {
+  const StaggeredGrid& grid = run.one.scene.grid;
+  const FaceFields eps = face_void_fraction(grid, run.state.grains);
+  const auto [nx, ny, nz] = grid.cells;
+  const auto plane = [&](auto&& value, int k) {
+    double sum = 0;
+    for (int i = 0; i < nx; ++i)
+      for (int j = 0; j < ny; ++j) sum += value(grid.index(i, j, k));
+    return sum / (double(nx) * ny);
+  };
+  const auto pressure = [&](std::size_t n) { return run.state.fluid.pressure[n]; };
+  const double d = run.input("grains.diameter"), nu = run.input("fluid.viscosity"), rho = run.input("fluid.density");
+  const double excess = (run.input("grains.density") - rho) * run.input("box.gravity"), h = grid.h.z;
+  const int lowest = static_cast<int>(std::ceil(2 * d / h)), highest = nz - 2;
+  RisingFlow flow{.flux = run.state.search.through_flow};
+  flow.drop = rho * (plane(pressure, lowest) - plane(pressure, highest) +
+                     run.state.fluid.column_gradient * h * (highest - lowest));
+  for (int k = lowest + 1; k <= highest; ++k) {
+    const double porosity = plane([&](std::size_t n) { return eps.z[n]; }, k), phi = 1 - porosity;
+    flow.weight += phi * excess * h;
+    flow.drag += rho * nu * gradient_per_flux("di_felice", porosity, flow.flux * d / nu) * flow.flux / (d * d) * h;
+  }
+  return flow;
+}
+
+Findings fluidised_bed(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  for (const auto& run : runs) {
+    const RisingFlow flow = rising_flow(run);
+    found.rows.push_back({.name = fmt::format("fluidised at {:.2g} mm/s: drop of pressure [Pa]", 1e3 * flow.flux),
+                          .reference = flow.weight,
+                          .source = "submerged weight per area of the grains in the bed",
+                          .ours = flow.drop,
+                          .band = Band::within(0.01)});
+  }
+  return found;
+}
+
+/// In creeping flow the drop is proportional to the flux: where it meets the weight, the bed lifts.
+Findings minimum_fluidisation(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  for (const auto& run : runs) {
+    const RisingFlow flow = rising_flow(run);
+    found.rows.push_back({.name = fmt::format("settled again at {:.2g} mm/s: drop of pressure [Pa]", 1e3 * flow.flux),
+                          .reference = flow.drag,
+                          .source = "Di Felice 1994, at the bed's plane-mean porosity",
+                          .ours = flow.drop,
+                          .band = Band::within(0.05)});
+    found.rows.push_back({.name = fmt::format("from there: minimum fluidisation [mm/s]"),
+                          .reference = 1e3 * flow.flux * flow.weight / flow.drag,
+                          .source = "Di Felice 1994, the same",
+                          .ours = 1e3 * flow.flux * flow.weight / flow.drop,
+                          .band = Band::within(0.05)});
+  }
+  return found;
+}
+
+// ---- Flow over and in a frozen bed
+
+/// Plane-mean solid fraction at height z, smoothed as the kernel smooths it: quadratic B-splines of width h_z, folded back
+/// at the bottom.
+double smoothed_solid(const FinishedCase& run, double z) {
+  const double h = run.one.scene.grid.h.z;
+  const Vec3 box = run.one.scene.bed.length;
+  const auto spline = [&](double distance) {
+    const double r = std::abs(distance) / h;
+    return r < 0.5 ? 0.75 - r * r : r < 1.5 ? 0.5 * (1.5 - r) * (1.5 - r) : 0;
+  };
+  double solid = 0;
+  const auto& grains = run.state.grains;
+  for (std::size_t p = 0; p < grains.size(); ++p)
+    solid += sphere_volume(grains.diameter[p]) * (spline(z - grains.position[p].z) + spline(z + grains.position[p].z));
+  return solid / (box.x * box.y * h);
+}
+
+/// Brinkman (1949, Appl. Sci. Res. A 1, 27): eps nu u'' = 18 nu phi F(eps, Re) eps u/d^2 between a bottom at rest and a lid,
+/// by second-order differences on `n` fine cells, the law's Reynolds number iterated.
+std::vector<double> brinkman(const FinishedCase& run, int n) {
+  const double d = run.input("grains.diameter"), nu = run.input("fluid.viscosity");
+  const double height = run.one.scene.bed.length.z, h = height / n, lid = run.state.search.lid_speed;
+  std::vector<double> phi(n), u(n, 0.0);
+  for (int k = 0; k < n; ++k) phi[k] = smoothed_solid(run, (k + 0.5) * h);
+  for (int pass = 0; pass < 30; ++pass) {
+    std::vector<double> upper(n), right(n);
+    for (int k = 0; k < n; ++k) {   // Thomas
+      const double eps = 1 - phi[k], re = std::max(1e-9, eps * std::abs(u[k]) * d / nu);
+      const double sink = 18 * phi[k] * di_felice(eps, re) * h * h / (d * d);
+      const double below = k > 0 ? 1 : 0, above = k < n - 1 ? 1 : 0;
+      const double diagonal = -(2 + sink + (k == 0) + (k == n - 1));   // walls half a cell away
+      const double pivot = diagonal - (k > 0 ? below * upper[k - 1] : 0);
+      upper[k] = above / pivot;
+      right[k] = ((k == n - 1 ? -2 * lid : 0) - (k > 0 ? below * right[k - 1] : 0)) / pivot;
+    }
+    for (int k = n - 1; k >= 0; --k) u[k] = right[k] - (k < n - 1 ? upper[k] * u[k + 1] : 0);
+  }
+  return u;
+}
+
+Findings brinkman_bed(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  SvgPlot plot(640, 360, {"flow speed / speed of the lid [%]", 0.01, 100, true}, {"height [d]", 3, 11}, 190);
+  constexpr const char* colours[] = {"#1b6ca8", "#b5442b", "#3a7d44"};
+  double coarser = 0;
+  std::size_t n = 0;
+  for (const auto& run : runs) {
+    constexpr int fine = 4000;
+    const double d = run.input("grains.diameter"), height = run.one.scene.bed.length.z, h = run.one.scene.grid.h.z;
+    const double lid = run.state.search.lid_speed, surface = 5.5 * d;
+    const auto exact = brinkman(run, fine);
+    const auto exact_at = [&](double z) {
+      const double at = z / height * fine - 0.5;
+      const auto k = static_cast<std::size_t>(std::clamp(at, 0.0, fine - 2.0));
+      return exact[k] + (exact[k + 1] - exact[k]) * (at - double(k));
+    };
+    const auto ours = plane_means(run.state.fluid.velocity.x, run.one.scene.grid);
+    double difference = 0, size = 0;
+    std::vector<PlotPoint> line;
+    const auto* colour = colours[n++ % std::size(colours)];
+    for (std::size_t k = 0; k < ours.size(); ++k) {
+      const double z = (double(k) + 0.5) * h;
+      if (ours[k] > 0) plot.marker({100 * ours[k] / lid, z / d}, Marker::circle, colour, true, "");
+      if (z < surface - d || z > surface + 2 * d) continue;
+      difference += std::abs(ours[k] - exact_at(z)), size += exact_at(z);
+    }
+    for (int k = 0; k < fine; k += 8)
+      if (exact[k] > 0) line.push_back({100 * exact[k] / lid, (k + 0.5) * height / fine / d});
+    plot.line(line, {colour, 1.2, ""});
+    plot.legend_marker(fmt::format("cells {:.2g} d high", h / d), Marker::circle, colour, true);
+    const double error = difference / size;
+    const bool finest = h / d < 0.3;
+    found.rows.push_back(
+        {.name =
+             fmt::format("cells {:.2g} d high: flow from 1 d below to 2 d above the surface, difference in the mean "
+                         "of |u| [%]",
+                         h / d),
+         .reference = finest || coarser == 0 ? 0 : 100 * coarser,
+         .source = finest         ? "Brinkman 1949, the same eps(z)"
+                   : coarser == 0 ? "Brinkman 1949, the same eps(z); where the convergence begins"
+                                  : "less than on the cells before",
+         .ours = 100 * error,
+         .band = finest         ? Band{0, 3, false}
+                 : coarser == 0 ? Band{0, 100, false}
+                                : Band::at_most()});
+    coarser = error;
+  }
+  plot.legend_line("Brinkman 1949", {"#333", 1.2, ""});
+  found.figures.push_back({"brinkman",
+                           "Flow over and in a frozen bed, sheared by a lid: plane means (points) and the solution of "
+                           "Brinkman's one-dimensional problem with the same smoothed void fraction (lines).",
+                           plot.svg()});
+  return found;
+}
+
+// ---- At rest
+
+Findings bed_at_rest(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  for (const auto& run : runs) {
+    double fastest = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double* u = run.state.fluid.velocity.component(c);
+      for (std::size_t n = 0; n < run.state.fluid.velocity.x.values.size(); ++n)
+        fastest = std::max(fastest, std::abs(u[n]));
+    }
+    found.rows.push_back({.name = fmt::format("fastest flow after {} steps [lone grain's speed]", run.fluid_steps),
+                          .reference = 0,
+                          .source = "a bed at rest drives no flow",
+                          .ours = fastest / lone_speed(run),
+                          .band = Band::within_absolute(1e-4)});
+  }
+  return found;
+}
+
+bool quick_frozen(const Case& one) {
+  return one.scene.bed.source.count < 1000 && one.inputs.number("drive.through_flow.from") < 1e-2;
+}
+bool quick_free(const Case& one) { return one.scene.bed.source.count < 500; }
+
+}   // namespace
+
+std::vector<Rung> bed_rungs() {
+  return {
+      {"bed-packed", "flow through uniform fixed beds", packed_bed, quick_packed},
+      {"bed-hindered-frozen", "flow through grains held at random places", frozen_suspension, quick_frozen},
+      {"bed-hindered-free", "settling of a suspension", free_suspension, quick_free},
+      {"bed-fluidised", "a bed lifted by rising fluid", fluidised_bed, {}},
+      {"bed-minimum-fluidisation", "a bed that rising fluid does not lift", minimum_fluidisation, {}},
+      {"bed-brinkman", "a lid shears fluid over a frozen bed", brinkman_bed, every_case},
+      {"bed-at-rest", "a settled bed in still fluid", bed_at_rest, every_case},
+  };
+}
+
+}   // namespace bedload
