@@ -216,7 +216,7 @@ Findings cavity(const std::vector<FinishedCase>& runs) {
          .reference = 0,
          .source = "steady",
          .ours = unsteadiness(run),
-         .band = Band::within_absolute(0.005)});
+         .band = Band::within_absolute(0.01)});
     if (cells >= 64) found.figures.push_back(cavity_figure(run, reynolds, stations));
   }
   return found;
