@@ -70,9 +70,17 @@ void print_json(const std::vector<RungResult>& rungs, bool passed) {
   fmt::print("{}\n", json.dump(2));
 }
 
-void write_document(const fs::path& folder, const std::vector<RungResult>& rungs) {
+/// What was run, as it stands in the document.
+std::string command_line(const ValidateOptions& options) {
+  std::string line = "bedload validate";
+  for (const auto& group : options.groups) line += " " + group;
+  return line + (options.quick ? " --quick" : "") + " --write docs";
+}
+
+void write_document(const ValidateOptions& options, const std::vector<RungResult>& rungs) {
+  const fs::path folder = *options.write;
   make_writable_directory(folder / "verification");
-  for (const auto& file : verification_document(rungs)) publish(folder / file.path, file.text);
+  for (const auto& file : verification_document(rungs, command_line(options))) publish(folder / file.path, file.text);
   log_note(fmt::format("wrote {}", (folder / "verification.md").string()));
 }
 
@@ -120,7 +128,7 @@ int validate_command(const ValidateOptions& options) {
   const bool passed = std::ranges::all_of(rungs, &RungResult::passed);
   if (options.form == Form::json) print_json(rungs, passed);
   else fmt::print("{}", printed(as_rows(rungs), options.form));
-  if (options.write) write_document(*options.write, rungs);
+  if (options.write) write_document(options, rungs);
   print_summary(rungs, std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   return passed ? 0 : static_cast<int>(ErrorKind::some_failed);
 }

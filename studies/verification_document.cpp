@@ -63,7 +63,7 @@ std::string section_of(const RungResult& rung) {
 
 constexpr std::string_view preface = R"(# Verification
 
-Written by `bedload validate --write docs`, bedload {} ({}). Do not edit: run the command.
+Written by `{}`, bedload {} ({}). Do not edit: run the command.
 
 Every row is a run of this program, read from its record or its last state, and held against a reference of another origin:
 *code*, the exact answer of the equations that are solved; or *experiment*, what was measured in nature. The study files are
@@ -87,7 +87,7 @@ std::string shown_band(const ValidationRow& row) {
   return fmt::format("{} to {}", of_row(row, -below, true), of_row(row, above, true));
 }
 
-std::vector<DocumentFile> verification_document(const std::vector<RungResult>& rungs) {
+std::vector<DocumentFile> verification_document(const std::vector<RungResult>& rungs, const std::string& command) {
   std::size_t rows = 0, good = 0;
   double core_seconds = 0;
   for (const auto& rung : rungs) {
@@ -96,8 +96,8 @@ std::vector<DocumentFile> verification_document(const std::vector<RungResult>& r
     core_seconds += rung.core_seconds;
   }
   const auto build = build_info();
-  std::vector<DocumentFile> files{{"verification.md", fmt::format(fmt::runtime(preface), build.version, build.commit,
-                                                                  good, rows, core_seconds / 60)}};
+  std::vector<DocumentFile> files{{"verification.md", fmt::format(fmt::runtime(preface), command, build.version,
+                                                                  build.commit, good, rows, core_seconds / 60)}};
   std::string group, body;
   for (const auto& rung : rungs) {
     if (rung.group != group) {

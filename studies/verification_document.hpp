@@ -18,7 +18,7 @@ struct DocumentFile {
   std::string path, text;
 };
 
-/// verification.md, first, and verification/<figure>.svg. Apart from computing times the same ladder gives the same bytes.
-std::vector<DocumentFile> verification_document(const std::vector<RungResult>&);
+/// verification.md, first, and verification/<figure>.svg; `command` is what was run, and makes them again. Apart from computing times the same ladder gives the same bytes.
+std::vector<DocumentFile> verification_document(const std::vector<RungResult>&, const std::string& command);
 
 }   // namespace bedload

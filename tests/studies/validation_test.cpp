@@ -124,12 +124,13 @@ TEST(Climb, FailsARungWithoutStudyOrRows) {
 }
 
 TEST(VerificationDocument, HoldsEveryRowAndItsFigures) {
-  const auto files = verification_document(climb(part_of_the_ladder, {.cores = 2}));
+  const auto files = verification_document(climb(part_of_the_ladder, {.cores = 2}), "bedload validate contact");
   ASSERT_EQ(files.size(), 2u);
   EXPECT_EQ(files[0].path, "verification.md");
   EXPECT_EQ(files[1].path, "verification/contact-foerster-glass.svg");
   EXPECT_NE(files[0].text.find("![contact-foerster-glass](verification/contact-foerster-glass.svg)"),
             std::string::npos);
+  EXPECT_NE(files[0].text.find("Written by `bedload validate contact`"), std::string::npos);
   EXPECT_NE(files[0].text.find("| duration of a collision at 0.05 m/s [us] |"), std::string::npos);
   EXPECT_NE(files[0].text.find("(../studies/validation/contact-hertz.toml)"), std::string::npos);
   EXPECT_EQ(files[0].text.find("**no**"), std::string::npos);
