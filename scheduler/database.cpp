@@ -15,7 +15,7 @@
 namespace bedload {
 namespace {
 
-constexpr int layout_version = 1;     // PRAGMA user_version: moves when a table changes its meaning
+constexpr int layout_version = 2;     // PRAGMA user_version: moves when a table changes its meaning
 constexpr int patience_ms = 10'000;   // how long a statement waits for another process's transaction
 
 /// WAL needs memory shared between all who open the file, which network file systems do not have (statfs(2) magics).
@@ -129,6 +129,11 @@ struct Database::Connection {
           ErrorKind::corrupt,
           fmt::format("{} is of a newer bedload: layout {}, this one knows {}", file.string(), version, layout_version),
           "use the bedload that wrote it");
+    if (version > 0 && version < layout_version)
+      throw Error(ErrorKind::corrupt,
+                  fmt::format("{} is of an older bedload: layout {}, this one writes {}", file.string(), version,
+                              layout_version),
+                  "move it away: `bedload run STUDY` makes a new one from the case directories");
     if (version < layout_version && !(mode == Mode::write && is_new()))
       throw Error(ErrorKind::corrupt, fmt::format("{} is not the database of a study", file.string()),
                   "move it away; `bedload run` makes a new one from the case directories");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/coupling/added_mass.hpp"
 #include "solver/coupling/void_fraction.hpp"
 #include "solver/fluid/face_loops.hpp"
 
@@ -66,6 +67,7 @@ struct ConservationBooks::Parts {
   explicit Parts(const Scene& given) : scene(given), grid(given.grid), springs(given.bed), eps(grid), flux(grid) {}
 
   Sums sums_of(const State&);
+  double of_added_mass(const State&);
   void check_grains(const State&);
   void book_momentum(const Sums& before, const Sums& after, const State&, double dt, const StepBooks&);
   void book_energy(const Sums& before, const Sums& after, const State& from, const State& to, double dt,
@@ -79,7 +81,8 @@ struct ConservationBooks::Parts {
   const ContactEnergy springs;
   std::vector<Stencil> stencils;
   VoidFraction eps;
-  FaceFields flux;
+  FaceFields flux, flow;
+  std::vector<double> void_fraction, added;
 
   Books worst;
   std::vector<double> diameter, density;   // of the first state
@@ -141,7 +144,24 @@ Sums ConservationBooks::Parts::sums_of(const State& state) {
         mass / 2 * norm2(grains.velocity[p]) + sphere_inertia(mass, grains.diameter[p]) / 2 * norm2(grains.spin[p]);
   }
   sums.energy += springs(state);
+  if (scene.terms.added_mass) sums.energy += of_added_mass(state);
   return sums;
+}
+
+/// Kinetic energy of the liquid that a grain carries along, C_A rho V_p |u - v|^2/2: what added mass takes up and gives back.
+double ConservationBooks::Parts::of_added_mass(const State& state) {
+  const Grains& grains = state.grains;
+  const Strides stride(grid);
+  flow = state.fluid.velocity;
+  extend_samples(grid, flow), extend_samples(grid, eps.centre);
+  void_fraction.resize(grains.size());
+  for (std::size_t p = 0; p < grains.size(); ++p)
+    void_fraction[p] = sample<on_cells>(stencils[p], stride, eps.centre.data());
+  find_added_mass(grid, grains, stencils, void_fraction, scene.terms.model_b(), added);
+  double sum = 0;
+  for (std::size_t p = 0; p < grains.size(); ++p)
+    sum += added[p] / 2 * norm2(sample(stencils[p], stride, flow) - grains.velocity[p]);
+  return scene.bed.fluid.density * sum;
 }
 
 /// d(momentum) = (drive + weight along the slope + push - what bottom, lid and walls take up) dt.

@@ -34,7 +34,7 @@ const std::vector<Factor>& single_factors() {
       {{"slope -20", "box.slope = \"-20 deg\""}, {"slope 25", "box.slope = \"25 deg\""}},
       {{"restitution 0.01", "grains.restitution = 0.01"}, {"restitution 1", "grains.restitution = 1.0"}},
       {{"friction 0", "grains.friction = 0.0"}, {"friction 1", "grains.friction = 1.0"}},
-      {{"spread 0.3", "grains.spread = 0.3"}},
+      {{"spread 0.3", "grains.spread = 0.3\nbox.width = \"8 d\"\nbox.cell.xy = \"2.7 d\"\nbox.cell.z = \"0.75 d\""}},
       {{"one layer", "bed.count = 36"}},
   };
   return factors;
@@ -60,7 +60,6 @@ const std::vector<Factor>& paired_factors() {
       {{"slope -20", "box.slope = \"-20 deg\""}, {"level", ""}, {"slope 25", "box.slope = \"25 deg\""}},
       {{"e 0.01", "grains.restitution = 0.01"}, {"e 1", "grains.restitution = 1.0"}},
       {{"mu 0", "grains.friction = 0.0"}, {"mu 1", "grains.friction = 1.0"}},
-      {{"lid", ""}, {"stream", "drive.kind = \"pressure\"\nbox.top = \"free-slip\""}},
   };
   return factors;
 }
@@ -96,15 +95,13 @@ std::vector<ExtremeScene> special_scenes() {
   add("no bottom, no lid", laminar,
       table("extremes-seam.csv") + "\nbox.z = \"periodic\"\nwithout drive.shields\ndrive.kind = \"none\"", true);
   add("size ratio 1:5", laminar, table("extremes-sizes.csv"), true);
-  add("solid fraction 0.64, bottom to lid", laminar,
+  add("bed of solid fraction 0.64 that touches the lid", laminar,
       table("extremes-dense.csv") +
           "\nbox.length = \"3.71164321 mm\"\nbox.width = \"2.96931457 mm\"\nbox.height = \"4.58780773 mm\"\n" +
           by_speed,
       true);
-  add("bed that touches the lid", laminar, "box.height = \"3.5 d\"\n" + by_speed, true);
   add("fluid at rest", laminar, "without drive.shields\ndrive.kind = \"none\"", false);
-  add("fluid at rest, s 1.01", water, "grains.density = \"1010 kg/m3\"\nwithout drive.shields\ndrive.kind = \"none\"",
-      true);
+  add("fluid at rest, s 1.01", water, "grains.density = \"1010 kg/m3\"\nwithout drive\ndrive.kind = \"none\"", true);
   add("lid that turns back", laminar,
       "without drive.shields\ndrive.speed.from = \"0.05 m/s\"\ndrive.speed.step = \"-0.1 m/s\"\ndrive.speed.steps = 2",
       true);
@@ -188,7 +185,7 @@ std::vector<ExtremeScene> extreme_scenes(bool quick) {
   std::vector<int> levels;
   for (const Factor& factor : paired_factors()) levels.push_back(static_cast<int>(factor.size()));
   for (const auto& row : covering_pairs(levels)) {
-    ExtremeScene scene{.base = "extremes-laminar"};
+    ExtremeScene scene{.base = "extremes-water"};
     for (std::size_t f = 0; f < row.size(); ++f) {
       const Level& level = paired_factors()[f][static_cast<std::size_t>(row[f])];
       scene.name += fmt::format("{}{}", f ? ", " : "", level.name);

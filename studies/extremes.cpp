@@ -69,6 +69,7 @@ Case case_of(const ExtremeScene& scene, const std::string& more_lines) {
 
 /// Length of a step that the flow allows, before the run: the interval asked for, or CFL 0.5 at the imposed speed.
 double expected_step(const Scene& scene) {
+  if (!scene.developed) return scene.steps.fluid_interval;
   const double speed = numbers_of(scene).flow_speed, fastest = std::isfinite(speed) ? std::abs(speed) * 1.5 : 0;
   const double by_flow = fastest > 0 ? 0.5 * scene.grid.h.x / fastest : scene.steps.fluid_interval;
   return std::min(by_flow, scene.steps.fluid_interval);

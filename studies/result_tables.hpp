@@ -33,7 +33,8 @@ CREATE TABLE IF NOT EXISTS scenes (                -- one row per finished case:
   drag_law                  TEXT NOT NULL,
   dwell_s                   REAL NOT NULL,
   dem_step_s                REAL NOT NULL,
-  fluid_step_limit_s        REAL NOT NULL
+  fluid_step_limit_s        REAL NOT NULL,
+  retries                   INTEGER NOT NULL       -- fluid steps undone and taken again shorter, in all
 ) STRICT;
 
 CREATE TABLE IF NOT EXISTS ramp_points (           -- one row per hold, means over its last half
@@ -57,6 +58,30 @@ CREATE TABLE IF NOT EXISTS ramp_points (           -- one row per hold, means ov
   porosity                  REAL NOT NULL,
   coordination              REAL NOT NULL,
   momentum_residual         REAL,                  -- in units of a Shields number
+  PRIMARY KEY (case_id, hold)
+) STRICT;
+
+CREATE TABLE IF NOT EXISTS step_health (           -- one row per hold: the worst of its fluid steps
+  case_id                   TEXT NOT NULL,
+  hold                      INTEGER NOT NULL,
+  steps                     INTEGER NOT NULL,      -- fluid steps
+  shortest_step_s           REAL NOT NULL,
+  longest_step_s            REAL NOT NULL,
+  retries                   INTEGER NOT NULL,      -- undone and taken again shorter
+  courant_number            REAL NOT NULL,
+  deepest_overlap           REAL NOT NULL,         -- per diameter of the smaller grain
+  grain_travel              REAL NOT NULL,         -- per cell edge
+  solver_residual           REAL NOT NULL,         -- of the projection, of its right-hand side
+  divergence                REAL NOT NULL,         -- |div(eps u + J)| T that a step left
+  void_clamps               INTEGER NOT NULL,      -- summed over grains and steps
+  disturbance_clamps        INTEGER NOT NULL,
+  pressure_iterations       INTEGER NOT NULL,      -- most in one step
+  drag_iterations           INTEGER NOT NULL,
+  limited_by_cfl            INTEGER NOT NULL,      -- steps that this limit shortened
+  limited_by_drag           INTEGER NOT NULL,
+  limited_by_travel         INTEGER NOT NULL,
+  limited_by_contact        INTEGER NOT NULL,
+  limited_by_weight         INTEGER NOT NULL,
   PRIMARY KEY (case_id, hold)
 ) STRICT;
 

@@ -78,7 +78,8 @@ void store_scene(Database& database, const CaseIdentity& id, const Scene& scene,
           std::string(name_of(scene.drag)),
           scene.drive.dwell,
           bed.dem_step,
-          scene.steps.fluid_interval});
+          scene.steps.fluid_interval,
+          whole(state.clock.retries)});
 }
 
 void store_ramp(Database& database, const CaseIdentity& id, const Scene& scene, const BedRecord::Holds& h) {
@@ -108,6 +109,22 @@ void store_ramp(Database& database, const CaseIdentity& id, const Scene& scene, 
             h.porosity[k],
             h.coordination[k],
             known(h.momentum_residual[k])});
+  }
+}
+
+/// Columns are in the order of HealthMeasures::each; what counts something is whole.
+void store_health(Database& database, const CaseIdentity& id, const BedRecord::Health& h) {
+  constexpr std::string_view real[] = {"shortest_step", "longest_step",   "cfl", "deepest_overlap", "grain_travel",
+                                       "divergence",    "divergence_left"};
+  for (std::size_t k = 0; k < h.hold.size(); ++k) {
+    std::vector<Value> row;
+    row.emplace_back(id.id);
+    row.push_back(whole(h.hold[k]));
+    BedRecord::Health::Measures::each(h.measures, [&](std::string_view name, const auto& column, std::string_view) {
+      const bool is_real = std::ranges::find(real, name) != std::end(real);
+      row.push_back(is_real ? Value(column[k]) : whole(column[k]));
+    });
+    insert(database, "step_health", row);
   }
 }
 
@@ -166,11 +183,12 @@ void create_result_tables(Database& database) {
 void store_results(Database& database, const CaseIdentity& id, const Scene& scene, const State& state,
                    const std::vector<ModelChoice>& models, const Provenance& made_by) {
   Database::Transaction transaction(database);
-  for (const char* table :
-       {"scenes", "ramp_points", "thresholds", "bed_statistics", "samples", "tracks", "models", "provenance"})
+  for (const char* table : {"scenes", "ramp_points", "step_health", "thresholds", "bed_statistics", "samples", "tracks",
+                            "models", "provenance"})
     database.execute(fmt::format("DELETE FROM {} WHERE case_id = ?", table), {id.id});
   store_scene(database, id, scene, state);
   store_ramp(database, id, scene, state.record.holds);
+  store_health(database, id, state.record.health);
   store_thresholds(database, id, scene.onset, state.record);
   store_profiles(database, id, state.record.profiles);
   store_samples(database, id, state.record.samples);

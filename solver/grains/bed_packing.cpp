@@ -2,6 +2,7 @@
 #include "solver/grains/bed_packing.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/grains/box_walls.hpp"
 
@@ -12,6 +13,16 @@ constexpr int substeps_per_interval = 50;
 constexpr double settled_energy = 1e-6;      // mean kinetic energy per grain / (W' d) [-]
 constexpr double weight_not_carried = 0.5;   // of a grain's own weight that its contacts may leave unbalanced [-]
 
+constexpr double highest_restitution =
+    0.9;                                // of collisions while settling: what only a thin liquid slows would never rest
+constexpr double slowest_fall = 0.01;   // of sqrt((1 - rho_f/rho) g d): slower than that, speed has no say in packing
+
+/// The same bed, with collisions that lose something.
+BedScene lossy(BedScene scene) {
+  scene.grains.restitution = std::min(scene.grains.restitution, highest_restitution);
+  return scene;
+}
+
 /// Submerged weight per mass [m/s2]. The box stands level while a bed is poured and is tilted afterwards, as a flume
 /// is: else a slope near the angle of repose would never come to rest.
 Vec3 settling_push(const BedScene& scene, double density) {
@@ -21,7 +32,7 @@ Vec3 settling_push(const BedScene& scene, double density) {
 }   // namespace
 
 struct BedPacking::Parts {
-  explicit Parts(const BedScene& scene_) : scene(scene_), dynamics(scene_) {}
+  explicit Parts(const BedScene& scene_) : scene(scene_), dynamics(lossy(scene_)) {}
 
   void set_forces(const Grains&);
   void wrap(Grains&) const;
@@ -38,7 +49,8 @@ void BedPacking::Parts::set_forces(const Grains& grains) {
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const double d = grains.diameter[i];
     push[i] = settling_push(scene, grains.density[i]);
-    relaxation[i] = 18 * scene.fluid.viscosity * scene.fluid.density / (grains.density[i] * d * d);   // Stokes (G13)
+    const double stokes = 18 * scene.fluid.viscosity * scene.fluid.density / (grains.density[i] * d * d);   // (G13)
+    relaxation[i] = std::min(stokes, std::sqrt(norm(push[i]) / d) / slowest_fall);
   }
 }
 

@@ -71,9 +71,23 @@ TEST_F(StudyDatabase, RunsExactlyOneStatementOfAQuery) {
 }
 
 TEST_F(StudyDatabase, RefusesTheFileOfANewerVersion) {
-  Database(file_, Database::Mode::write).execute("PRAGMA user_version = 2");
+  Database(file_, Database::Mode::write).execute("PRAGMA user_version = 3");
   EXPECT_EQ(refusal([&] { Database(file_, Database::Mode::write); }), ErrorKind::corrupt);
   EXPECT_EQ(refusal([&] { Database(file_, Database::Mode::query); }), ErrorKind::corrupt);
+}
+
+TEST_F(StudyDatabase, RefusesTheFileOfAnOlderLayoutAndSaysHowToGoOn) {
+  Database(file_, Database::Mode::write).execute("PRAGMA user_version = 1");
+  for (const auto mode : {Database::Mode::write, Database::Mode::query}) {
+    try {
+      Database(file_, mode);
+      ADD_FAILURE() << "opened";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind, ErrorKind::corrupt);
+      EXPECT_NE(std::string(error.what()).find("layout 1"), std::string::npos) << error.what();
+      EXPECT_NE(error.hint.find("bedload run"), std::string::npos) << error.hint;
+    }
+  }
 }
 
 TEST_F(StudyDatabase, RefusesAFileThatIsNoDatabase) {

@@ -46,6 +46,11 @@ State finished_state() {
     h.flux.push_back(k < 2 ? 1e-4 : 0.1);
     h.momentum_residual.push_back(k == 0 ? -1 : 1e-9);
   }
+  state.clock.retries = 3;
+  state.record.health.hold = {0};
+  double measure = 100;
+  BedRecord::Health::Measures::each(state.record.health.measures,
+                                    [&](auto&&, auto& column, auto&&) { column = {measure++}; });
   state.record.profiles = {{-1, -1}, {1e-4, 2e-4}, {0.4, 0.5}, {0, 0}, {0, 0}};
   state.record.tracks = {{0.1}, {7}, {1}, {2}, {3}, {4}, {5}, {6}, {7}, {8}, {9}};
   return state;
@@ -103,6 +108,16 @@ TEST_F(ResultsTest, HoldTheThresholdOfEveryCriterionAndMarkTheOneThatDecides) {
 TEST_F(ResultsTest, LeaveAMomentumResidualThatIsNotKnownEmpty) {
   store();
   EXPECT_EQ(number("SELECT count(*) FROM ramp_points WHERE momentum_residual IS NULL"), 1);
+}
+
+TEST_F(ResultsTest, SayHowWellTheStepsOfEveryHoldWent) {
+  store();
+  EXPECT_EQ(number("SELECT retries FROM scenes"), 3);
+  EXPECT_EQ(number("SELECT steps FROM step_health WHERE hold = 0"), 100);
+  EXPECT_EQ(number("SELECT retries FROM step_health"), 103);
+  EXPECT_EQ(number("SELECT deepest_overlap FROM step_health"), 105);
+  EXPECT_EQ(number("SELECT divergence FROM step_health"), 108);
+  EXPECT_EQ(number("SELECT limited_by_weight FROM step_health"), 117);
 }
 
 TEST_F(ResultsTest, NameTheFinalStateByItsDigest) {
