@@ -138,9 +138,8 @@ struct Coupler::Parts {
   FlowAtGrains flow;
   Sheltering sheltering;
   std::vector<Vec3> exchange, relaxation, ballistic, flow_velocity, push, moved, drag_force;
-  // Only where the terms need them: C_A V_p [m3] and rho_f C_A V_p [kg] of every grain, what the fluid gets of them.
-  std::vector<double> added_volume, added_mass;
-  std::vector<Vec3> contact_before;
+  // Only where the terms need them: C_A V_p of every grain [m3], what the fluid gets of it.
+  std::vector<double> added_volume;
   FaceFields added_exchange, reaction;
   std::optional<SpinExchange> spin_exchange;
   FaceFields vorticity, vorticity_change;   // on edges [1/s]
@@ -178,7 +177,6 @@ struct Coupler::Parts {
   void book_torques(const Grains&, double dt);
   void book_drive_of_fluid(const State&);
   void book_drive_of_grains(const State&, double dt);
-  void give_contact_share(State&, double dt);
   void move_grains(State&, double dt);
   void deposit_at_new_positions(const State&, double dt);
   void transport_momentum(State&, double dt);
@@ -490,7 +488,6 @@ void Coupler::Parts::book_drive_of_grains(const State& state, double dt) {
 void Coupler::Parts::book_exchange(const State& state, double dt) {
   const Grains& grains = state.grains;
   const double rho = scene.bed.fluid.density;
-  added_mass.resize(added_volume.size());
   Vec3 on_grains;
   for (std::size_t p = 0; p < grains.size(); ++p) {
     const Vec3 a = relaxation[p], difference = flow_velocity[p] - ballistic[p];
@@ -502,16 +499,12 @@ void Coupler::Parts::book_exchange(const State& state, double dt) {
     if (scene.terms.added_mass) {
       const Vec3 velocity = grains.fixed[p] ? Vec3{} : grains.velocity[p];
       force += added_volume[p] / dt * (slip - (flow.velocity[p] - velocity));
-      added_mass[p] = rho * added_volume[p];
     }
     on_grains += force;
     if (!model_b()) on_grains += sphere_volume(grains.diameter[p]) * flow.acceleration[p];
     if (explicit_forces()) on_grains += flow.force[p];
     if (grains.fixed[p]) continue;
     push[p] += force / mass;
-    // In the sub-steps a contact force meets mass and added mass. The solve has already met the mean of the last step's.
-    if (scene.terms.added_mass)
-      push[p] += (1 / mass - 1 / (mass + added_volume[p])) / rho * grains.mean_contact_force[p];
   }
   books.on_grains = rho * on_grains;
 }
@@ -546,10 +539,8 @@ void Coupler::Parts::move_grains(State& state, double dt) {
   Grains& grains = state.grains;
   moved.assign(grains.size(), {});
   if (health.substeps == 0) return;
-  if (scene.terms.added_mass) contact_before = grains.mean_contact_force;
-  const GrainHealth contact =
-      dynamics.advance(grains, state.contacts, {.push = push, .spin_push = spin_push, .added_mass = added_mass},
-                       dt / health.substeps, health.substeps, state.search.lid_speed);
+  const GrainHealth contact = dynamics.advance(grains, state.contacts, {.push = push, .spin_push = spin_push},
+                                               dt / health.substeps, health.substeps, state.search.lid_speed);
   health.deepest_overlap = contact.deepest_overlap;
   books.contact_on_walls = contact.force_on_walls;
   const Vec3 length = scene.bed.length;
@@ -565,28 +556,6 @@ void Coupler::Parts::move_grains(State& state, double dt) {
   }
   book_drive_of_grains(state, dt);
   health.lost_grain |= health.grain_travel >= 1;   // more than the charge-conserving deposit can carry
-  if (scene.terms.added_mass && !failed()) give_contact_share(state, dt);
-}
-
-/// Contact forces that the solve did not know of have moved a grain together with its liquid: the liquid's share of the
-/// impulse, m_a/(M + m_a), is the fluid's.
-void Coupler::Parts::give_contact_share(State& state, double dt) {
-  const Grains& grains = state.grains;
-  const Strides stride(grid);
-  const double rho = scene.bed.fluid.density;
-  clear(reaction);
-  for (std::size_t p = 0; p < grains.size(); ++p) {
-    if (grains.fixed[p]) continue;
-    const double share = added_volume[p] / (specific_mass(grains, p) + added_volume[p]);
-    const Vec3 on_liquid = share * (grains.mean_contact_force[p] - contact_before[p]);
-    deposit(stencils[p], stride, dt / (rho * grid.cell_volume()) * on_liquid, reaction);
-    books.on_grains -= on_liquid;
-  }
-  fold_deposits(grid, reaction);
-  for (int c = 0; c < 3; ++c)
-    for_each_unknown_face(grid, c,
-                          [r = reaction.component(c), eps = before.face.component(c),
-                           u = state.fluid.velocity.component(c)](std::size_t n) { u[n] += r[n] / eps[n]; });
 }
 
 /// The flux that transport needs, then everything that belongs to x^{n+1}.
