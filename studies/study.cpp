@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "solver/expected_bed.hpp"
 #include "solver/grains/bed_packing.hpp"
+#include "solver/grains/suspension.hpp"
 #include "solver/scene_range.hpp"
 #include "studies/case_identity.hpp"
 #include "studies/study_keys.hpp"
@@ -96,10 +98,12 @@ void add_problems(const std::vector<SceneProblem>& found, const Settings& settin
     problems.add(place_in(settings, p.parameter), fmt::format("{}: {}", p.parameter, p.message), p.hint);
 }
 
-/// Grains that cannot be placed: found by placing them, once per bed.
+/// Grains that cannot be placed: found by placing them, once per bed; those of a suspension take long.
 void check_placing(const Scene& scene, const Settings& settings, Problems& problems) {
   try {
-    place_grains(scene.bed);
+    if (scene.bed.source.kind == BedSource::Kind::suspension)
+      check_suspension_fits(scene.bed, largest_diameter(scene.bed));
+    else place_grains(scene.bed);
   } catch (const Error& error) {
     const std::string key = scene.bed.source.kind == BedSource::Kind::file ? "bed.file" : "bed.count";
     problems.add(place_in(settings, key), fmt::format("{}: {}", key, error.what()), error.hint);

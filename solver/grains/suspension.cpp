@@ -124,6 +124,10 @@ std::vector<Vec3> choose_sites(const Crystal& crystal, std::uint64_t count) {
 
 }   // namespace
 
+void check_suspension_fits(const BedScene& scene, double largest_diameter) {
+  if (scene.source.count > 0) crystal_for(scene, scene.source.count, largest_diameter);
+}
+
 std::vector<Vec3> places_in_suspension(const BedScene& scene, const std::vector<double>& diameters) {
   if (diameters.empty()) return {};
   const double largest = std::ranges::max(diameters);

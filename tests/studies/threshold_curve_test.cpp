@@ -25,7 +25,7 @@ class ThresholdCurveTest : public ::testing::Test {
     const std::string id = set + "-" + std::to_string(seed);
     database_.execute(
         "INSERT INTO scenes VALUES "
-        "(?,?,?,?,?,?,0.05,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,1,'di_felice',1,1,1)",
+        "(?,?,?,?,?,?,0.05,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,1,'di_felice',1,1,1,0)",
         {id, id, set, "label-" + set, std::int64_t{seed}, diameter});
     database_.execute("INSERT INTO thresholds VALUES (?,'flux',0.01,1,?,?,?,?)",
                       {id, status, real_or_null(shields), real_or_null(lower), real_or_null(upper)});
