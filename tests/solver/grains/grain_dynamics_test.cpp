@@ -226,6 +226,20 @@ TEST(GrainDynamics, RestOnTheFloorWithTheirWeight) {
               1e-9);
 }
 
+TEST(GrainDynamics, RollOnTheFloorAboutTheMiddleOfTheOverlap) {
+  // Grain and wall are of one material and give way alike: what rolls without sliding turns at v/(r - depth/2).
+  const BedScene scene = grain_scene(Side::periodic, Side::wall);
+  Grains grains;
+  add_grain(grains, {20e-3, 20e-3, 0.48e-3}, {0.1, 0, 0});
+  GrainDynamics dynamics(scene);
+  ContactHistory contacts;
+  double overlap = 0;   // 2 % of the diameter under a hundredfold weight
+  for (int n = 0; n < 500; ++n)
+    overlap = coast(dynamics, grains, contacts, scene.dem_step, 10, {0, 0, -981}).deepest_overlap * 1e-3;
+  EXPECT_GT(overlap, 0.015e-3);
+  EXPECT_NEAR(grains.velocity[0].x / (grains.spin[0].y * (0.5e-3 - overlap / 2)), 1, 1e-4);
+}
+
 TEST(GrainDynamics, AreDraggedByALidButNotByAFreeSurface) {
   BedScene scene = grain_scene(Side::periodic, Side::wall);
   for (const Top top : {Top::lid, Top::free_slip}) {
