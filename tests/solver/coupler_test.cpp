@@ -95,5 +95,17 @@ TEST(FluidStep, FailsWhenAnyComponentIsNotANumber) {
   }
 }
 
+TEST(RestingGrain, FeelsNoDragSinceItsContactBearsItsWeight) {
+  // A drag solve that did not know of the contact would take the grain for falling and hold it up by a/(1 + a) of its weight.
+  LoneGrain grain(1e-5, channel);
+  grain.scene.bed.gravity = {0, 0, -9.81};
+  grain.state.grains.position[0].z = 0.5 * d;
+  Coupler coupler(grain.scene);
+  for (int n = 0; n < 300; ++n) ASSERT_TRUE(coupler.step(grain.state, grain.scene.steps.fluid_interval).finite);
+  const double weight = 1650 * sphere_volume(d) * 9.81;
+  EXPECT_NEAR(grain.state.grains.mean_contact_force[0].z, weight, 1e-3 * weight);
+  EXPECT_NEAR(coupler.drag_on_grains()[0].z, 0, 1e-3 * weight);
+}
+
 }   // namespace
 }   // namespace bedload::test
