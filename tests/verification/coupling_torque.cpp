@@ -68,6 +68,24 @@ TEST(ViscousTorque, LeavesAGrainThatTurnsWithTheFluidAlone) {
   EXPECT_NEAR(grain.state.grains.spin[0].y / (0.5 * grain.rate), 1, 1e-4);
 }
 
+TEST(ViscousTorque, OnAGrainThatItsContactKeepsFromTurningIsStokes) {
+  // Rolling friction holds it on the floor. A solve that did not know of the contact's torque would let it turn over the step
+  // and find 1/(1 + lambda T) of the torque.
+  ShearedGrain grain(false, 1e-4);
+  grain.scene.terms.drag = false;
+  grain.scene.bed.gravity = {0, 0, -9.81};
+  grain.scene.bed.grains.rolling_friction = 0.5;
+  grain.state.grains.position[0].z = 0.5 * d;
+  grain.state.grains.velocity[0] = {};
+  Coupler coupler(grain.scene);
+  double step = 0;
+  for (int i = 0; i < 500; ++i) step = coupler.step(grain.state, grain.scene.steps.fluid_interval).dt;
+  EXPECT_GT(60 * 1e-4 / (2.65 * d * d) * step, 0.5) << "lambda T";
+  EXPECT_NEAR(grain.state.grains.spin[0].y, 0, 1e-3 * grain.rate);
+  const double stokes = std::numbers::pi * 0.1 * d * d * d * 0.5 * grain.rate;
+  EXPECT_NEAR(coupler.torque_on_grains()[0].y / stokes, 1, 1e-3);
+}
+
 TEST(ViscousTorque, OfGrainsThatDoNotTurnThickensTheFluid) {
   // n pi mu d^3 = 6 mu phi per vorticity/2: a force 1.5 phi nu lap u beside eps nu lap u, so that a shear wave decays at
   // nu k^2 (1 + 1.5 phi/eps); k^2 as the grid has it. No drag.
