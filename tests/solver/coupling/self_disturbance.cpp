@@ -32,9 +32,14 @@ double mean_over_cell(const StaggeredGrid& g, Value&& value) {
   return sum / (n * n * n);
 }
 
+/// Velocity along the force over the faces that bear it, by the grain's weights.
+struct AtForce {
+  double mean, variance;
+};
+
 /// Steady Stokes flow (nu = 1) under a unit force along `axis` at x, deposited with the grains' weights and balanced by a
 /// uniform gradient, in a periodic box: the program's viscous solve and pressure solve in turn until nothing changes.
-double velocity_at_its_own_force(const StaggeredGrid& g, Vec3 x, int axis) {
+AtForce velocity_at_its_own_force(const StaggeredGrid& g, Vec3 x, int axis) {
   const Stencil stencil(g, x);
   FaceFields force(g), u(g), grad(g), lap(g), impulse(g), kick(g);
   const FaceFields one(g, 1);
@@ -71,11 +76,15 @@ double velocity_at_its_own_force(const StaggeredGrid& g, Vec3 x, int axis) {
     for (std::size_t n = 0; n < q.values.size(); ++n) q[n] += dq[n];
     extend_samples(g, u);
     const double own = sample(stencil, Strides(g), u)[axis];
-    if (std::abs(own - before) < 1e-6 * std::abs(own)) return own;
+    if (std::abs(own - before) < 1e-6 * std::abs(own)) {
+      FaceFields square = u;
+      for (double *v = square.component(axis), *end = v + g.padded_size(); v != end; ++v) *v *= *v;
+      return {own, sample(stencil, Strides(g), square)[axis] - own * own};
+    }
     before = own;
   }
   ADD_FAILURE() << "no steady flow";
-  return 0;
+  return {};
 }
 
 TEST(SelfDisturbance, IsTheProgramsOwnSteadyFlowAtAForce) {
@@ -83,8 +92,12 @@ TEST(SelfDisturbance, IsTheProgramsOwnSteadyFlowAtAForce) {
   const StaggeredGrid g = grid_of({20, 20, 20}, {1, 1, 1});
   const SelfDisturbance table(g);
   for (const Vec3 x : {Vec3{10.5, 10.5, 10}, Vec3{10, 10, 10}, Vec3{10.5, 10.5, 10.5}, Vec3{10.2, 10.9, 10.35}}) {
-    const double alone = velocity_at_its_own_force(g, x, 2) + 2.837297 / (6 * pi * 20);
+    const AtForce flow = velocity_at_its_own_force(g, x, 2);
+    const double alone = flow.mean + 2.837297 / (6 * pi * 20);
     EXPECT_NEAR(table.at(x, {}, 1).drag.z / alone, 1, 0.002) << x.x << " " << x.y << " " << x.z;
+    const double unevenness = flow.variance / (alone * alone);   // the array's part is even
+    EXPECT_NEAR(table.at(x, {}, 1).unevenness.z, unevenness, 0.01 * unevenness + 1e-6)
+        << x.x << " " << x.y << " " << x.z;
   }
 }
 
@@ -94,8 +107,10 @@ TEST(SelfDisturbance, KnowsFlatCells) {
   const SelfDisturbance table(g);
   const Vec3 x{10.7, 9.4, 10.1};
   for (const int axis : {0, 2}) {
-    const double alone = velocity_at_its_own_force(g, x, axis) + 2.837297 / (6 * pi * 20);
+    const AtForce flow = velocity_at_its_own_force(g, x, axis);
+    const double alone = flow.mean + 2.837297 / (6 * pi * 20);
     EXPECT_NEAR(table.at(x, {}, 1).drag[axis] / alone, 1, 0.005) << "axis " << axis;
+    EXPECT_NEAR(table.at(x, {}, 1).unevenness[axis] / (flow.variance / (alone * alone)), 1, 0.02) << "axis " << axis;
   }
 }
 
