@@ -65,5 +65,34 @@ TEST(Lift, ATouchingGrainIsLiftedTowardsLeightonAndAcrivos) {
   EXPECT_NEAR(couette.lift_after(40) / expected, 1, 0.35);
 }
 
+TEST(Magnus, PushesAGrainTowardsTheSideThatTurnsAgainstTheFlow) {
+  // Moving along +x with its top turning forward, down; the other way up. The step is 1e-3 of the time in which drag would
+  // take up the force, d^2 s/(18 nu) = 1.5e-5 s; in cells of 8 d own flow is nothing beside that.
+  const Vec3 velocity{0.05, 0, 0};
+  for (const double turn : {40.0, -40.0}) {
+    Scene scene = fluid_scene({4, 4, 4}, {8 * d, 8 * d, 8 * d}, periodic_box, nu);
+    scene.drag = DragLawName::schiller_naumann;
+    scene.bed.grains.diameter = d;
+    const auto force = [&](bool on) {
+      Scene one = scene;
+      one.terms.magnus = on;
+      one.bed.dem_step = 1.5e-8;
+      State state = state_of(one, {{1.3e-3, 1.7e-3, 1.6e-3}}, false);
+      state.grains.velocity[0] = velocity, state.grains.spin[0] = {0, turn, 0};
+      Coupler coupler(one);
+      const Vec3 before = total_momentum(one, state);
+      coupler.step(state, 1.5e-8);
+      EXPECT_LT(norm(total_momentum(one, state) - before), 1e-12 * norm(before));
+      EXPECT_EQ(state.grains.velocity[0].z < 0, on && turn > 0);
+      return coupler.books().on_grains;
+    };
+    const Vec3 expected = 1000 * cross(-velocity, magnus(-velocity, {0, turn, 0}, d, nu));
+    const Vec3 found = force(true) - force(false);
+    EXPECT_NEAR(found.z / expected.z, 1, 2e-3);
+    EXPECT_NEAR(found.x / expected.z, 0, 2e-3);
+    EXPECT_EQ(expected.z<0, turn> 0);
+  }
+}
+
 }   // namespace
 }   // namespace bedload::test
