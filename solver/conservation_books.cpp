@@ -64,7 +64,13 @@ struct Sums {
 }   // namespace
 
 struct ConservationBooks::Parts {
-  explicit Parts(const Scene& given) : scene(given), grid(given.grid), springs(given.bed), eps(grid), flux(grid) {}
+  explicit Parts(const Scene& given)
+      : scene(given),
+        grid(given.grid),
+        smoothing(given.grid, given.smoothing),
+        springs(given.bed),
+        eps(grid),
+        flux(grid) {}
 
   Sums sums_of(const State&);
   double of_added_mass(const State&);
@@ -78,10 +84,12 @@ struct ConservationBooks::Parts {
 
   const Scene scene;
   const StaggeredGrid grid;
+  const KernelSmoothing smoothing;
   const ContactEnergy springs;
   std::vector<Stencil> stencils;
   VoidFraction eps;
-  FaceFields flux, flow;
+  FaceFields flux, flow, seen_flow;
+  Field<Centre> seen_eps;
   std::vector<double> void_fraction, added;
 
   Books worst;
@@ -117,8 +125,8 @@ Sums ConservationBooks::Parts::sums_of(const State& state) {
   const Grains& grains = state.grains;
   const double rho = scene.bed.fluid.density, cell = grid.cell_volume();
   find_stencils(grid, grains, stencils);
-  deposit_void_fraction(grid, grains, stencils, eps);
-  deposit_solid_flux(grid, grains, stencils, flux);
+  deposit_void_fraction(grid, grains, stencils, eps, smoothing);
+  deposit_solid_flux(grid, grains, stencils, flux, smoothing);
 
   const Vec3 length = grid.length();
   const double box = length.x * length.y * length.z;
@@ -153,14 +161,15 @@ double ConservationBooks::Parts::of_added_mass(const State& state) {
   const Grains& grains = state.grains;
   const Strides stride(grid);
   flow = state.fluid.velocity;
-  extend_samples(grid, flow), extend_samples(grid, eps.centre);
+  const FaceFields& read = smoothing.seen(grid, flow, seen_flow);
+  const Field<Centre>& packed = smoothing.seen(grid, eps.centre, seen_eps);
   void_fraction.resize(grains.size());
   for (std::size_t p = 0; p < grains.size(); ++p)
-    void_fraction[p] = sample<on_cells>(stencils[p], stride, eps.centre.data());
-  find_added_mass(grid, grains, stencils, void_fraction, scene.terms.model_b(), added);
+    void_fraction[p] = sample<on_cells>(stencils[p], stride, packed.data());
+  find_added_mass(grid, grains, void_fraction, scene.terms.model_b(), added, smoothing);
   double sum = 0;
   for (std::size_t p = 0; p < grains.size(); ++p)
-    sum += added[p] / 2 * norm2(sample(stencils[p], stride, flow) - grains.velocity[p]);
+    sum += added[p] / 2 * norm2(sample(stencils[p], stride, read) - grains.velocity[p]);
   return scene.bed.fluid.density * sum;
 }
 

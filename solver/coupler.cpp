@@ -96,6 +96,7 @@ struct Coupler::Parts {
         grid(given.grid),
         law(drag_law(given.drag)),
         fall_time(time_of_fall(given)),
+        smoothing(given.grid, given.smoothing),
         dynamics(given.bed, {given.terms.wet_restitution, given.terms.lubrication}),
         drag(grid),
         pressure(grid),
@@ -120,6 +121,7 @@ struct Coupler::Parts {
   const StaggeredGrid grid;
   const DragLaw law;
   const double fall_time;
+  const KernelSmoothing smoothing;
   GrainDynamics dynamics;
   ImplicitDrag drag;
   PressureSolver pressure;
@@ -133,7 +135,7 @@ struct Coupler::Parts {
   FaceFields acceleration, laplace, impulse, flux, solid_flux;
   MixtureResponse response;
   Field<Centre> rhs, correction;
-  FaceFields kick, carried;
+  FaceFields kick, carried, seen;   // seen: what grains read of a field; only with a smoothing
   TransportScratch transport_scratch;
   FlowAtGrains flow;
   Sheltering sheltering;
@@ -143,8 +145,8 @@ struct Coupler::Parts {
   FaceFields added_exchange, reaction;
   std::optional<SpinExchange> spin_exchange;
   FaceFields vorticity, vorticity_change;   // on edges [1/s]
-  std::vector<double> spin_strength;        // T c' [m5]
-  std::vector<Vec3> spin_target, spin_push, torque;
+  std::vector<Vec3> spin_strength;          // T c' [m5]
+  std::vector<Vec3> spin_start, spin_target, spin_push, torque;
 
   StepBooks books;
   StepTimes times;
@@ -222,7 +224,7 @@ void Coupler::Parts::place_on_grid(const Grains& grains) {
   Stopwatch watch(times.deposit);
   if (positions == grains.position && diameters == grains.diameter) return;
   find_stencils(grid, grains, stencils);
-  deposit_void_fraction(grid, grains, stencils, before);
+  deposit_void_fraction(grid, grains, stencils, before, smoothing);
   fill_face_ghosts(grid, before.face);
   positions = grains.position;
   diameters = grains.diameter;
@@ -237,7 +239,7 @@ void Coupler::Parts::accelerate_faces(State& state) {
   fill_centre_ghosts(grid, state.fluid.pressure);
   gradient(grid, state.fluid.pressure, acceleration);
   laplacian(grid, u, laplace);
-  deposit_solid_flux(grid, state.grains, stencils, flux);
+  deposit_solid_flux(grid, state.grains, stencils, flux, smoothing);
   const double nu = scene.bed.fluid.viscosity;
   for (int c = 0; c < 3; ++c) {
     double *a = acceleration.component(c), *f = flux.component(c);
@@ -280,15 +282,15 @@ void Coupler::Parts::book_wall_shear(const FaceFields& velocity) {
 void Coupler::Parts::sample_at_grains(State& state) {
   Stopwatch watch(times.sample);
   sample_flow(grid, state.grains, stencils, state.fluid.velocity, acceleration, before.centre, law,
-              scene.bed.fluid.viscosity, scene.terms, flow);
+              scene.bed.fluid.viscosity, scene.terms, flow, smoothing);
   health.void_clamps = flow.void_clamps;
   health.disturbance_clamps = flow.disturbance_clamps;
   if (!wants_vorticity()) return;
   find_vorticity(grid, carried, vorticity);
-  extend_edge_samples(grid, vorticity);
+  const FaceFields& turning = smoothing.edges_seen(grid, vorticity, seen);
   flow.vorticity.resize(stencils.size());
   for (std::size_t p = 0; p < stencils.size(); ++p)
-    flow.vorticity[p] = sample_edges(stencils[p], Strides(grid), vorticity);
+    flow.vorticity[p] = sample_edges(stencils[p], Strides(grid), turning);
   add_explicit_forces({grid, PeriodicBox(scene.bed), scene.bed.fluid.viscosity, state.search.lid_speed}, state.grains,
                       scene.terms, sheltering, flow);
 }
@@ -357,7 +359,7 @@ void Coupler::Parts::predict_grains(const State& state, double dt) {
   const std::size_t count = grains.size();
   exchange.resize(count), relaxation.resize(count), ballistic.resize(count), flow_velocity.resize(count),
       push.resize(count), drag_force.resize(count);
-  if (scene.terms.added_mass) find_added_mass(grid, grains, stencils, flow.void_fraction, model_b(), added_volume);
+  if (scene.terms.added_mass) find_added_mass(grid, grains, flow.void_fraction, model_b(), added_volume, smoothing);
   for (std::size_t p = 0; p < count; ++p) {
     Vec3 impulse_per_slip = flow.drag[p] * dt;
     if (scene.terms.added_mass) impulse_per_slip += added_volume[p] * Vec3{1, 1, 1};
@@ -376,24 +378,31 @@ void Coupler::Parts::predict_grains(const State& state, double dt) {
 }
 
 /// Viscous torque c (curl u*/2 - omega') with the spin omega' at the end of the step, as if the contact torques of the last
-/// step went on: c' (curl u*/2 - omega_t), c' = c/(1 + lambda T), lambda = c rho_f/I.
+/// step went on: c' (curl u*/2 - omega_t), c' = c/(1 + lambda T), lambda = c rho_f/I. Near a wall c (s curl u*/2 - r omega'),
+/// so c' = c s/(1 + r lambda T) and (r/s) omega_t.
 void Coupler::Parts::predict_spins(const State& state, double dt) {
   const Grains& grains = state.grains;
   const double rho = scene.bed.fluid.density, nu = scene.bed.fluid.viscosity;
   const std::size_t count = grains.size();
-  spin_strength.resize(count), spin_target.resize(count), spin_push.assign(count, {}), torque.resize(count);
+  spin_strength.resize(count), spin_target.resize(count), spin_start.resize(count), spin_push.assign(count, {}),
+      torque.resize(count);
   for (std::size_t p = 0; p < count; ++p) {
     const double d = grains.diameter[p];
     const Vec3 spin = grains.fixed[p] ? Vec3{} : grains.spin[p];
     const double re = d * d * norm(0.5 * flow.vorticity[p] - spin) / nu;
     const double c = std::numbers::pi * nu * d * d * d * torque_factor(re);
-    spin_strength[p] = dt * c, spin_target[p] = {};
+    WallTorque wall;
+    if (scene.terms.wall_forces) wall = wall_torque(grid, grains.position[p], d, flow.packing.others[p]);
+    spin_strength[p] = dt * c * wall.shear, spin_target[p] = spin_start[p] = {};
     if (grains.fixed[p]) continue;
     const double inertia = sphere_inertia(grains.density[p] * sphere_volume(d), d);
-    spin_strength[p] = dt * c / (1 + dt * c * rho / inertia);
-    spin_target[p] = spin + dt / inertia * grains.mean_contact_torque[p];
+    spin_start[p] = spin + dt / inertia * grains.mean_contact_torque[p];
+    for (int t = 0; t < 3; ++t) {
+      spin_strength[p][t] /= 1 + dt * c * wall.spin[t] * rho / inertia;
+      spin_target[p][t] = wall.spin[t] / wall.shear[t] * spin_start[p][t];
+    }
   }
-  spin_exchange->prepare(stencils, spin_strength, spin_target);
+  spin_exchange->prepare(stencils, spin_strength, spin_target, smoothing);
 }
 
 /// What changes the fluid besides drag: T eps a, and the reaction of explicit forces and of added mass.
@@ -425,6 +434,7 @@ void Coupler::Parts::react_on_fluid(const State& state, double dt) {
     deposit(stencils[p], stride, -per_cell * given, reaction);
   }
   fold_deposits(grid, reaction), fold_deposits(grid, added_exchange);
+  smoothing.spread(reaction), smoothing.spread(added_exchange);
   for (int c = 0; c < 3; ++c) {
     double* b = impulse.component(c);
     const double *r = reaction.component(c), *added = added_exchange.component(c),
@@ -443,7 +453,12 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
   const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
   const double largest = nu + (turbulence ? turbulence->largest() : 0);
   const bool implicit = largest * dt > explicit_viscosity_limit * shortest_edge * shortest_edge;
-  DragProblem problem{stencils, exchange, relaxation, ballistic, flow.velocity};
+  DragProblem problem{.stencils = stencils,
+                      .exchange = exchange,
+                      .relaxation = relaxation,
+                      .ballistic = ballistic,
+                      .flow_velocity = flow.velocity,
+                      .smoothing = smoothing};
   if (implicit) problem.implicit_viscosity = nu * dt, problem.turbulence = turbulence ? &*turbulence : nullptr;
   problem.step = dt;
   problem.spin = spin_exchange ? &*spin_exchange : nullptr;
@@ -517,11 +532,11 @@ void Coupler::Parts::book_torques(const Grains& grains, double dt) {
     double* w = vorticity.component(t);
     for (std::size_t n = 0; n < vorticity.x.values.size(); ++n) w[n] += vorticity_change.component(t)[n];
   }
-  extend_edge_samples(grid, vorticity);
+  const FaceFields& turning = smoothing.edges_seen(grid, vorticity, seen);
   for (std::size_t p = 0; p < grains.size(); ++p) {
-    const Vec3 turn = 0.5 * sample_edges(stencils[p], Strides(grid), vorticity);
-    torque[p] = rho * spin_strength[p] / dt * (turn - spin_target[p]);
-    Vec3 slip = turn - spin_target[p];
+    const Vec3 turn = 0.5 * sample_edges(stencils[p], Strides(grid), turning);
+    torque[p] = scaled(rho * spin_strength[p] / dt, turn - spin_target[p]);
+    Vec3 slip = turn - spin_start[p];
     if (!grains.fixed[p]) {
       const double d = grains.diameter[p];
       spin_push[p] = torque[p] / sphere_inertia(grains.density[p] * sphere_volume(d), d);
@@ -563,17 +578,18 @@ void Coupler::Parts::deposit_at_new_positions(const State& state, double dt) {
   Stopwatch watch(times.deposit);
   if (failed()) return;
   const Grains& grains = state.grains;
-  deposit_swept_flux(grid, grains, positions, moved, dt, solid_flux);
+  deposit_swept_flux(grid, grains, positions, moved, dt, solid_flux, smoothing);
   for (int c = 0; c < 3; ++c)
     for_each_unknown_face(grid, c,
                           [f = flux.component(c), j = solid_flux.component(c)](std::size_t n) { f[n] -= j[n]; });
   fill_face_ghosts(grid, flux);
 
   find_stencils(grid, grains, stencils);
-  deposit_void_fraction(grid, grains, stencils, after);
+  deposit_void_fraction(grid, grains, stencils, after, smoothing);
   fill_face_ghosts(grid, after.face);
-  deposit_solid_flux(grid, grains, stencils, solid_flux);
-  find_mixture_response(grid, grains, stencils, exchange, scene.bed.fluid.density, after.face, model_b(), response);
+  deposit_solid_flux(grid, grains, stencils, solid_flux, smoothing);
+  find_mixture_response(grid, grains, stencils, exchange, scene.bed.fluid.density, after.face, model_b(), response,
+                        smoothing);
 }
 
 void Coupler::Parts::transport_momentum(State& state, double dt) {
@@ -642,11 +658,11 @@ void Coupler::Parts::kick_mixture(State& state, double dt) {
   }
   books.on_grains += rho * grid.cell_volume() * on_fixed;
   if (health.substeps == 0) return;
-  extend_samples(grid, kick);
+  const FaceFields& push_seen = smoothing.seen(grid, kick, seen);
   const Strides stride(grid);
   for (std::size_t p = 0; p < state.grains.size(); ++p) {
     if (state.grains.fixed[p]) continue;
-    const Vec3 change = -sample(stencils[p], stride, kick);
+    const Vec3 change = -sample(stencils[p], stride, push_seen);
     state.grains.velocity[p] += dt * change;
     books.on_grains += rho * specific_mass(state.grains, p) * change;
   }

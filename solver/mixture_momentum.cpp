@@ -6,11 +6,14 @@
 namespace bedload {
 
 MixtureMomentum::MixtureMomentum(const Scene& scene)
-    : grid_(scene.grid), fluid_density_(scene.bed.fluid.density), void_fraction_(scene.grid) {}
+    : grid_(scene.grid),
+      smoothing_(scene.grid, scene.smoothing),
+      fluid_density_(scene.bed.fluid.density),
+      void_fraction_(scene.grid) {}
 
 StreamwiseMomentum MixtureMomentum::operator()(const State& state, double level) {
   find_stencils(grid_, state.grains, stencils_);
-  deposit_void_fraction(grid_, state.grains, stencils_, void_fraction_);
+  deposit_void_fraction(grid_, state.grains, stencils_, void_fraction_, smoothing_);
 
   std::vector<double> plane(static_cast<std::size_t>(grid_.cells[2]));
   for (int i = grid_.first_face(0); i < grid_.cells[0]; ++i)

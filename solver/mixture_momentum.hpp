@@ -22,6 +22,7 @@ class MixtureMomentum {
 
  private:
   StaggeredGrid grid_;
+  KernelSmoothing smoothing_;
   double fluid_density_;
   std::vector<Stencil> stencils_;
   VoidFraction void_fraction_;

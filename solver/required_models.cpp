@@ -83,7 +83,13 @@ ModelChoice viscous_stress(const Facts& f) {
               "varies over a grain does not pull it"};
 }
 
+/// What is known of a grain's own flow is known for the kernel as it is.
+bool widened(const Facts& f) { return f.scene.smoothing != Smoothing{}; }
+constexpr auto not_widened =
+    "the grid's response to a lone grain is not known for a kernel widened by models.smoothing";
+
 ModelChoice self_disturbance(const Facts& f) {
+  if (widened(f)) return {.ratio = no_number, .reason = not_widened};
   const double share = f.n.self_response;
   if (loneness(f.grains.loosest) == 0)
     return {.ratio = no_number,
@@ -153,6 +159,7 @@ ModelChoice viscous_torque(const Facts& f) {
 }
 
 ModelChoice wall_forces(const Facts& f) {
+  if (widened(f)) return {.ratio = no_number, .reason = not_widened};
   const double k = f.grains.nearness, ratio = 9.0 / 16 * k;
   if (k == 0)
     return {.ratio = 0,

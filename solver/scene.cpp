@@ -128,6 +128,31 @@ void check_terms(const Scene& scene, Found& found) {
     refuse("exposure is that of grains in a bed, and there is none", "leave exposure out");
 }
 
+/// Further smoothing of the kernel.
+void check_smoothing(const Scene& scene, Found& found) {
+  const struct {
+    const char* key;
+    double sigma, edge;
+  } widths[] = {{"models.smoothing.xy", scene.smoothing.xy, std::min(scene.bed.length.x, scene.bed.length.y)},
+                {"models.smoothing.z", scene.smoothing.z, scene.bed.length.z}};
+  for (const auto& [key, sigma, edge] : widths)
+    if (sigma < 0 || 4 * sigma > edge)
+      found.push_back({key,
+                       fmt::format("a standard deviation of {:.4g} m in a box of {:.4g} m, of which at most a quarter "
+                                   "has a meaning",
+                                   sigma, edge),
+                       fmt::format("from 0 (none) to {:.4g} m", edge / 4)});
+  if (scene.smoothing == Smoothing{}) return;
+  for (const auto& [name, on] :
+       {std::pair{"self_disturbance", scene.terms.self_disturbance}, {"wall_forces", scene.terms.wall_forces}})
+    if (on)
+      found.push_back({"models.terms",
+                       fmt::format("{} takes from a lone grain what the grid gives back of its own flow, which is not "
+                                   "known for a kernel widened by models.smoothing",
+                                   name),
+                       fmt::format("leave {} out, or models.smoothing", name)});
+}
+
 void check_roughness(const Scene& scene, Found& found) {
   if (scene.bottom_roughness == 0) return;
   if (!scene.terms.turbulence)
@@ -186,6 +211,7 @@ std::vector<SceneProblem> problems_of(const Scene& scene) {
   check_grid(scene, found);
   check_drive(scene, found);
   check_terms(scene, found);
+  check_smoothing(scene, found);
   check_roughness(scene, found);
   check_tracks(scene, found);
   check_steps(scene, found);

@@ -62,6 +62,7 @@ class Resolver : InputList {
   void take_unless_default(std::string_view key);
   void onset();
   void models();
+  void smoothing();
   void wanted();
   void grains();
   void stiffness();
@@ -273,8 +274,17 @@ void Resolver::onset() {
 void Resolver::models() {
   inputs.values["models.fluid"] = std::string("box");
   take("models.drag");
-  if (is_auto("models.terms")) inputs.values["models.terms"] = std::vector<std::string>{};   // until wanted() knows them
+  if (is_auto("models.terms"))
+    inputs.values["models.terms"] = std::vector<std::string>{};   // until wanted() knows them
   else take("models.terms");
+}
+
+/// Widths may be counted in grain diameters. No width is none: a case without smoothing keeps its identity.
+void Resolver::smoothing() {
+  for (const auto key : {"models.smoothing.xy", "models.smoothing.z"}) {
+    if (given(key)) take(key);
+    if (inputs.has(key) && number(key) == 0) inputs.values.erase(key);
+  }
 }
 
 /// "auto": the terms that the scene requires. In the order of read lists, so that the same terms are the same case.
@@ -345,6 +355,7 @@ CaseInputs Resolver::run() {
   take_unless_default("grains.rolling_friction");
   start();
   box();
+  smoothing();
   drive();
   onset();
   take("record.every");

@@ -143,6 +143,8 @@ Scene scene_of(const CaseInputs& inputs) {
   scene.onset.value = inputs.number("onset.value");
   scene.drag = drag_law_named(inputs.word("models.drag"));
   scene.terms = terms_of(inputs);
+  scene.smoothing = {.xy = number_or_zero(inputs, "models.smoothing.xy"),
+                     .z = number_or_zero(inputs, "models.smoothing.z")};
   scene.steps.fluid_interval = number_or_zero(inputs, "steps.fluid");
   scene.record.every = inputs.number("record.every");
   scene.record.tracks = std::get<std::vector<std::uint64_t>>(inputs.values.at("record.tracks"));

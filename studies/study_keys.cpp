@@ -116,6 +116,8 @@ constexpr StudyKey keys[] = {
 
     word("models.fluid", "fluid", "auto|box", "auto", "profile|column"),
     word("models.drag", "drag", laws, "di_felice"),
+    {"models.smoothing.xy", Kind::quantity, dimension::length, Range::not_negative, {}, {}, "0 m", true, "sxy"},
+    {"models.smoothing.z", Kind::quantity, dimension::length, Range::not_negative, {}, {}, "0 m", true, "sz"},
     {"models.terms", Kind::words, dimension::number, Range::any, terms, {}, "auto", true, "terms"},
     {.path = "models.strict", .kind = Kind::flag, .fallback = "false", .physics = false},
 

@@ -34,7 +34,7 @@ double gradient_per_flux(const std::string& law, double eps, double re) {
 /// Volume flux of fluid along x per area [m/s].
 double flux_along_x(const FinishedCase& run) {
   const StaggeredGrid& grid = run.one.scene.grid;
-  const FaceFields eps = face_void_fraction(grid, run.state.grains);
+  const FaceFields eps = face_void_fraction(grid, run.state.grains, run.one.scene.smoothing);
   double sum = 0;
   for (int i = 0; i < grid.cells[0]; ++i)
     for (int j = 0; j < grid.cells[1]; ++j)
@@ -187,7 +187,7 @@ struct RisingFlow {
 
 RisingFlow rising_flow(const FinishedCase& run) {
   const StaggeredGrid& grid = run.one.scene.grid;
-  const FaceFields eps = face_void_fraction(grid, run.state.grains);
+  const FaceFields eps = face_void_fraction(grid, run.state.grains, run.one.scene.smoothing);
   const auto [nx, ny, nz] = grid.cells;
   const auto plane = [&](auto&& value, int k) {
     double sum = 0;

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/coupling/void_fraction.hpp"
+#include "solver/coupling/packing_of_others.hpp"
 
 namespace bedload {
 
@@ -14,7 +14,7 @@ constexpr double added_mass_coefficient(double packing) noexcept { return 0.5 * 
 
 /// C_A V_p of every grain, by id [m3] (added mass per fluid density), with phi that of the *other* grains at it: a lone
 /// grain has 1/2 whatever the cells. phi is at most 1 - 0.26, as in the drag laws. Divided by eps in Model B, as drag is.
-void find_added_mass(const StaggeredGrid&, const Grains&, std::span<const Stencil>,
-                     std::span<const double> void_fraction, bool model_b, std::vector<double>& added);
+void find_added_mass(const StaggeredGrid&, const Grains&, std::span<const double> void_fraction, bool model_b,
+                     std::vector<double>& added, const KernelSmoothing& = {});
 
 }   // namespace bedload

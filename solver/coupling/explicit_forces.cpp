@@ -56,6 +56,19 @@ bool any_explicit(const Terms& terms) {
   return terms.shear_lift || terms.magnus || terms.wall_forces || terms.exposure;
 }
 
+WallTorque wall_torque(const StaggeredGrid& grid, Vec3 position, double diameter, double others) {
+  WallTorque factors;
+  const auto there = wall_at(grid, position, others);
+  if (!there) return factors;
+  const double k = 0.5 * diameter / there->wall.distance;
+  for (int c = 0; c < 3; ++c) {
+    if (c == there->wall.axis) continue;
+    factors.shear[c] += there->share * (shear_torque_at_wall(k) - 1);
+    factors.spin[c] += there->share * (spin_torque_at_wall(k) - 1);
+  }
+  return factors;
+}
+
 void add_explicit_forces(const Surroundings& around, const Grains& grains, const Terms& terms, Sheltering& sheltering,
                          FlowAtGrains& flow) {
   if (!terms.drag || !any_explicit(terms)) return;

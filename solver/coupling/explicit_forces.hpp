@@ -17,6 +17,13 @@ struct Surroundings {
 /// The terms shear_lift, magnus, wall_forces and exposure, as far as they are on.
 bool any_explicit(const Terms&);
 
+/// What a wall near a lone grain makes of its viscous torque, per axis: factors on the vorticity that the wall's shear has, and
+/// on the grain's spin. 1 about the wall's normal, and for a grain among others.
+struct WallTorque {
+  Vec3 shear{1, 1, 1}, spin{1, 1, 1};
+};
+WallTorque wall_torque(const StaggeredGrid&, Vec3 position, double diameter, double packing_of_others);
+
 /// Adds these terms, in this order: walls change flow.drag and add to flow.force; lift and exposure add to flow.force.
 /// Reads flow.velocity, vorticity, void_fraction, packing, drag, removed; a lift never exceeds half of the drag (lift_force).
 void add_explicit_forces(const Surroundings&, const Grains&, const Terms&, Sheltering&, FlowAtGrains&);

@@ -79,18 +79,20 @@ void evaluate_drag(const Law& law, const StaggeredGrid& grid, const Grains& grai
 
 void sample_flow(const StaggeredGrid& grid, const Grains& grains, std::span<const Stencil> stencils,
                  FaceFields& velocity, FaceFields& acceleration, Field<Centre>& void_fraction, const DragLaw& law,
-                 double viscosity, const Terms& terms, FlowAtGrains& flow) {
+                 double viscosity, const Terms& terms, FlowAtGrains& flow, const KernelSmoothing& smoothing) {
   const std::size_t n = grains.size();
   flow.velocity.resize(n), flow.acceleration.resize(n), flow.void_fraction.resize(n);
   flow.drag.assign(n, {}), flow.force.assign(n, {});
-  if (n > 0) extend_samples(grid, velocity), extend_samples(grid, acceleration), extend_samples(grid, void_fraction);
+  const FaceFields& u = smoothing.seen(grid, velocity, flow.seen.velocity);
+  const FaceFields& a = smoothing.seen(grid, acceleration, flow.seen.acceleration);
+  const Field<Centre>& eps = smoothing.seen(grid, void_fraction, flow.seen.void_fraction);
   const Strides stride(grid);
   for (std::size_t p = 0; p < n; ++p) {
-    flow.velocity[p] = sample(stencils[p], stride, velocity);
-    flow.acceleration[p] = sample(stencils[p], stride, acceleration);
-    flow.void_fraction[p] = sample<on_cells>(stencils[p], stride, void_fraction.data());
+    flow.velocity[p] = sample(stencils[p], stride, u);
+    flow.acceleration[p] = sample(stencils[p], stride, a);
+    flow.void_fraction[p] = sample<on_cells>(stencils[p], stride, eps.data());
   }
-  find_packing(grid, grains, void_fraction, flow.void_fraction, flow.packing);
+  find_packing(grid, grains, eps, flow.void_fraction, flow.packing, smoothing);
   if (!terms.drag) return;
   if (terms.self_disturbance) flow.removed.assign(n, {});
   if (terms.self_disturbance && !flow.self_disturbance) flow.self_disturbance.emplace(grid);

@@ -24,8 +24,12 @@ struct FlowAtGrains {
   GrainPacking packing;
   std::optional<SelfDisturbance> self_disturbance;   // tables, made with the first step of a scene that has the term
   std::vector<Vec3> vorticity;                       // curl u at the grain [1/s]; where a term asks for it
-  std::vector<Vec3> removed;       // own disturbance that `drag` is corrected for, by 1/(1 - removed) [-]; empty: none
-  std::uint64_t void_clamps = 0;   // grains whose void fraction lay below 0.26
+  std::vector<Vec3> removed;   // own disturbance that `drag` is corrected for, by 1/(1 - removed) [-]; empty: none
+  struct Seen {
+    FaceFields velocity, acceleration;
+    Field<Centre> void_fraction;
+  } seen;                                 // what grains read of the fields; only with a smoothing
+  std::uint64_t void_clamps = 0;          // grains whose void fraction lay below 0.26
   std::uint64_t disturbance_clamps = 0;   // grains whose own flow was clamped at 0.7 of the slip
 };
 
@@ -34,6 +38,6 @@ struct FlowAtGrains {
 /// (docs/physics_coupling.md, "Self-disturbance"). Of the fields only ghosts change.
 void sample_flow(const StaggeredGrid&, const Grains&, std::span<const Stencil>, FaceFields& velocity,
                  FaceFields& acceleration, Field<Centre>& void_fraction, const DragLaw&, double viscosity, const Terms&,
-                 FlowAtGrains&);
+                 FlowAtGrains&, const KernelSmoothing& = {});
 
 }   // namespace bedload

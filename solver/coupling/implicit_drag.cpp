@@ -42,6 +42,7 @@ double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, c
             {k.x / (1 + a.x) * followed.x, k.y / (1 + a.y) * followed.y, k.z / (1 + a.z) * followed.z}, residual_);
   }
   if (!problem.stencils.empty()) fold_deposits(g, exchange_), fold_deposits(g, residual_);
+  problem.smoothing.spread(exchange_), problem.smoothing.spread(residual_);
   const Vec3 h = g.h;
   const double viscous = problem.implicit_viscosity * 2 * (1 / (h.x * h.x) + 1 / (h.y * h.y) + 1 / (h.z * h.z));
   double b_max = 0;
@@ -69,16 +70,16 @@ void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, con
                          FaceFields& x, FaceFields& out) {
   clear(out);
   const bool any_grain = !problem.stencils.empty();
-  if (any_grain) extend_samples(g, x);
+  const FaceFields& seen = any_grain ? problem.smoothing.seen(g, x, seen_) : x;
   const Strides stride(g);
   for (std::size_t p = 0; p < problem.stencils.size(); ++p) {
     const Vec3 a = problem.relaxation[p], k = problem.exchange[p];
     if (a == Vec3{}) continue;
     const Stencil& s = problem.stencils[p];
     const Vec3 share{-k.x * a.x / (1 + a.x), -k.y * a.y / (1 + a.y), -k.z * a.z / (1 + a.z)};
-    deposit(s, stride, scaled(share, sample(s, stride, x)), out);
+    deposit(s, stride, scaled(share, sample(s, stride, seen)), out);
   }
-  if (any_grain) fold_deposits(g, out);
+  if (any_grain) fold_deposits(g, out), problem.smoothing.spread(out);
   if (problem.implicit_viscosity > 0 || problem.spin) fill_velocity_ghosts(g, x, 0);
   if (problem.spin) problem.spin->add_image(x, out);
   if (problem.implicit_viscosity > 0) {
@@ -122,9 +123,9 @@ int ImplicitDrag::solve(const StaggeredGrid& g, const DragProblem& problem, cons
     ++iterations;
   }
   each([&](int c, std::size_t n) { velocity.component(c)[n] += change_.component(c)[n]; });
-  if (!problem.stencils.empty()) extend_samples(g, velocity);
+  const FaceFields& seen = problem.stencils.empty() ? velocity : problem.smoothing.seen(g, velocity, seen_);
   for (std::size_t p = 0; p < problem.stencils.size(); ++p)
-    flow_velocity[p] = sample(problem.stencils[p], Strides(g), velocity);
+    flow_velocity[p] = sample(problem.stencils[p], Strides(g), seen);
   each([&](int c, std::size_t n) {
     velocity.component(c)[n] += residual_.component(c)[n] / void_fraction.component(c)[n];
   });

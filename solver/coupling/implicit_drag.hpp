@@ -22,6 +22,7 @@ struct DragProblem {
   const Turbulence* turbulence = nullptr;   // whose stress is implicit too, over `step`; nullptr if none is
   double step = 0;                          // T [s]
   SpinExchange* spin = nullptr;             // the couples of viscous torque, prepared; nullptr if there are none
+  const KernelSmoothing& smoothing = no_smoothing;   // of the weights
 };
 
 /// Solves, for the change of velocity since u^n,
@@ -47,6 +48,7 @@ class ImplicitDrag {
                const FaceFields& velocity);
 
   FaceFields exchange_, diagonal_, residual_, direction_, image_, change_, laplacian_;
+  FaceFields seen_;   // only with a smoothing
 };
 
 }   // namespace bedload

@@ -22,7 +22,7 @@ void deposit_mobile(const Stencil& s, Strides stride, double exchange, double vo
 
 void find_mixture_response(const StaggeredGrid& g, const Grains& grains, std::span<const Stencil> stencils,
                            std::span<const Vec3> exchange, double fluid_density, const FaceFields& void_fraction,
-                           bool model_b, MixtureResponse& m) {
+                           bool model_b, MixtureResponse& m, const KernelSmoothing& smoothing) {
   clear(m.locked_exchange), clear(m.mobile_exchange), clear(m.mobile_fraction), clear(m.mobile_inertia);
   const Strides stride(g);
   for (std::size_t p = 0; p < grains.size(); ++p) {
@@ -38,7 +38,7 @@ void find_mixture_response(const StaggeredGrid& g, const Grains& grains, std::sp
     deposit_mobile<on_z_faces>(stencils[p], stride, k.z, volume, mass, m);
   }
   for (FaceFields* f : {&m.locked_exchange, &m.mobile_exchange, &m.mobile_fraction, &m.mobile_inertia})
-    if (grains.size() > 0) fold_deposits(g, *f);
+    if (grains.size() > 0) fold_deposits(g, *f), smoothing.spread(*f);
   for (int c = 0; c < 3; ++c) {
     double *cf = m.fluid.component(c), *cp = m.grains.component(c), *both = m.coefficient.component(c);
     const double *bl = m.locked_exchange.component(c), *bm = m.mobile_exchange.component(c),

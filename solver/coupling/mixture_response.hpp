@@ -31,6 +31,6 @@ struct MixtureResponse {
 /// with 1 and 0 on the right in Model B, where pressure acts on the fluid alone.
 void find_mixture_response(const StaggeredGrid&, const Grains&, std::span<const Stencil>,
                            std::span<const Vec3> exchange, double fluid_density, const FaceFields& void_fraction,
-                           bool model_b, MixtureResponse&);
+                           bool model_b, MixtureResponse&, const KernelSmoothing& = {});
 
 }   // namespace bedload

@@ -3,8 +3,9 @@
 namespace bedload {
 namespace {
 
-/// Sum of the squares of a grain's spline weights along one direction, those that fold onto one cell added first.
-double own_share(const StaggeredGrid& grid, int direction, double x) {
+/// What a grain reads along one direction of 1 that it has deposited: without smoothing the sum of the squares of its spline
+/// weights, those that fold onto one cell added first.
+double own_share(const StaggeredGrid& grid, const KernelSmoothing& smoothing, int direction, double x) {
   const int n = grid.cells[direction];
   const double s = x / grid.h[direction];
   const int cell = cell_of(s, n);
@@ -13,7 +14,7 @@ double own_share(const StaggeredGrid& grid, int direction, double x) {
   double sum = 0;
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b)
-      if (home(cell - 1 + a) == home(cell - 1 + b)) sum += weights[a] * weights[b];
+      sum += weights[a] * weights[b] * smoothing.read_back(direction, home(cell - 1 + a), home(cell - 1 + b));
   return sum;
 }
 
@@ -34,14 +35,20 @@ std::vector<double> plane_means(const StaggeredGrid& grid, const Field<Centre>& 
 
 }   // namespace
 
+double own_packing(const StaggeredGrid& grid, Vec3 x, double diameter, const KernelSmoothing& smoothing) {
+  return sphere_volume(diameter) / grid.cell_volume() * own_share(grid, smoothing, 0, x.x) *
+         own_share(grid, smoothing, 1, x.y) * own_share(grid, smoothing, 2, x.z);
+}
+
 void find_packing(const StaggeredGrid& grid, const Grains& grains, const Field<Centre>& void_fraction,
-                  std::span<const double> sampled, GrainPacking& packing) {
+                  std::span<const double> sampled, GrainPacking& packing, const KernelSmoothing& smoothing) {
   packing.own.resize(grains.size()), packing.others.resize(grains.size());
   const std::vector<double> means = plane_means(grid, void_fraction);
   for (std::size_t p = 0; p < grains.size(); ++p) {
     const Vec3& x = grains.position[p];
-    const double volume = sphere_volume(grains.diameter[p]) / grid.cell_volume(), along = own_share(grid, 2, x.z);
-    packing.own[p] = volume * own_share(grid, 0, x.x) * own_share(grid, 1, x.y) * along;
+    const double volume = sphere_volume(grains.diameter[p]) / grid.cell_volume(),
+                 along = own_share(grid, smoothing, 2, x.z);
+    packing.own[p] = own_packing(grid, x, grains.diameter[p], smoothing);
     const double s = x.z / grid.h.z;
     const int k = cell_of(s, grid.cells[2]);
     const auto w = quadratic_spline(s - k - 0.5);

@@ -15,9 +15,12 @@ struct GrainPacking {
       others;   // the larger of what it samples of all others, and of their mean over the planes at its height
 };
 
-/// `void_fraction` with its ghosts extended; `sampled` the void fraction at each grain.
+/// What a grain reads of its own volume as packing density.
+double own_packing(const StaggeredGrid&, Vec3 position, double diameter, const KernelSmoothing&);
+
+/// `void_fraction` as grains read it, its ghosts extended; `sampled` the void fraction at each grain.
 void find_packing(const StaggeredGrid&, const Grains&, const Field<Centre>& void_fraction,
-                  std::span<const double> sampled, GrainPacking&);
+                  std::span<const double> sampled, GrainPacking&, const KernelSmoothing& = {});
 
 /// 1 for a lone grain, 0 in a bed or suspension, smooth between: what is right for a lone grain is blended in by this share
 /// (docs/decisions/self_disturbance.md).

@@ -64,17 +64,18 @@ void SpinExchange::weigh_walls(FaceFields& f) const {
   }
 }
 
-void SpinExchange::prepare(std::span<const Stencil> stencils, std::span<const double> strength,
-                           std::span<const Vec3> target) {
+void SpinExchange::prepare(std::span<const Stencil> stencils, std::span<const Vec3> strength,
+                           std::span<const Vec3> target, const KernelSmoothing& smoothing) {
   clear(strength_), clear(target_);
   const Strides stride(grid_);
   for (std::size_t p = 0; p < stencils.size(); ++p) {
-    const double c = strength[p] / grid_.cell_volume();
-    deposit_on_edges(stencils[p], stride, {c, c, c}, strength_);
-    deposit_on_edges(stencils[p], stride, c * target[p], target_);
+    const Vec3 c = strength[p] / grid_.cell_volume();
+    deposit_on_edges(stencils[p], stride, c, strength_);
+    deposit_on_edges(stencils[p], stride, scaled(c, target[p]), target_);
   }
   for (FaceFields* f : {&strength_, &target_}) {
     fold_edge_deposits(grid_, *f);
+    smoothing.spread_on_edges(*f);
     weigh_walls(*f);
     fill_face_ghosts(grid_, *f);
   }

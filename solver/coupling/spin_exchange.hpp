@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/coupling/kernel.hpp"
+#include "solver/coupling/smoothing.hpp"
 
 namespace bedload {
 
@@ -22,8 +22,9 @@ class SpinExchange {
  public:
   explicit SpinExchange(const StaggeredGrid&);
 
-  /// Takes `strength` = T c'_p [m5] and spin targets omega_t [rad/s] by id, and the vorticity of u^n on edges.
-  void prepare(std::span<const Stencil>, std::span<const double> strength, std::span<const Vec3> target);
+  /// Takes `strength` = T c'_p per axis [m5] and spin targets omega_t [rad/s] by id, and the vorticity of u^n on edges.
+  void prepare(std::span<const Stencil>, std::span<const Vec3> strength, std::span<const Vec3> target,
+               const KernelSmoothing& = {});
   /// impulse -= curl^T (C curl u^n/2 - S)/2, the couples if u* were u^n; `vorticity` on edges as from find_vorticity.
   void add_impulse(const FaceFields& vorticity, FaceFields& impulse) const;
   /// out += curl^T C curl x/4 on unknown faces; x has a ghost layer as of a velocity.

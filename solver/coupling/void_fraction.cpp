@@ -67,7 +67,7 @@ void find_stencils(const StaggeredGrid& grid, const Grains& grains, std::vector<
 }
 
 void deposit_void_fraction(const StaggeredGrid& grid, const Grains& grains, std::span<const Stencil> stencils,
-                           VoidFraction& eps) {
+                           VoidFraction& eps, const KernelSmoothing& smoothing) {
   clear(eps.centre), clear(eps.face);
   const double per_cell = 1 / grid.cell_volume();
   const Strides stride(grid);
@@ -77,13 +77,14 @@ void deposit_void_fraction(const StaggeredGrid& grid, const Grains& grains, std:
     deposit(stencils[p], stride, {share, share, share}, eps.face);
   }
   if (grains.size() > 0) fold_deposits(grid, eps.centre), fold_deposits(grid, eps.face);
+  smoothing.spread(eps.centre), smoothing.spread(eps.face);
   for (double& e : eps.centre.values) e += 1;
   for (int c = 0; c < 3; ++c)
     for (double *e = eps.face.component(c), *end = e + grid.padded_size(); e != end; ++e) *e += 1;
 }
 
 void deposit_solid_flux(const StaggeredGrid& grid, const Grains& grains, std::span<const Stencil> stencils,
-                        FaceFields& flux) {
+                        FaceFields& flux, const KernelSmoothing& smoothing) {
   clear(flux);
   const double per_cell = 1 / grid.cell_volume();
   const Strides stride(grid);
@@ -92,10 +93,11 @@ void deposit_solid_flux(const StaggeredGrid& grid, const Grains& grains, std::sp
       deposit(stencils[p], stride, sphere_volume(grains.diameter[p]) * per_cell * grains.velocity[p], flux);
   if (grains.size() > 0) fold_deposits(grid, flux);
   clear_walls(grid, flux);
+  smoothing.spread_flux(flux);
 }
 
 void deposit_swept_flux(const StaggeredGrid& grid, const Grains& grains, std::span<const Vec3> before,
-                        std::span<const Vec3> moved, double dt, FaceFields& flux) {
+                        std::span<const Vec3> moved, double dt, FaceFields& flux, const KernelSmoothing& smoothing) {
   clear(flux);
   const double per_step = 1 / (grid.cell_volume() * dt);
   const Strides stride(grid);
@@ -112,6 +114,7 @@ void deposit_swept_flux(const StaggeredGrid& grid, const Grains& grains, std::sp
   }
   if (grains.size() > 0) fold_deposits(grid, flux);
   clear_walls(grid, flux);
+  smoothing.spread_flux(flux);
 }
 
 }   // namespace bedload

@@ -1,10 +1,11 @@
-// Grains on the grid: void fraction, flux of solid, and the flux that carries one set of positions into the next.
+// Grains on the grid: void fraction, flux of solid, and the flux that carries one set of positions into the next; all of them
+// by the kernel and its further smoothing.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "solver/coupling/kernel.hpp"
+#include "solver/coupling/smoothing.hpp"
 #include "solver/grains/grains.hpp"
 
 namespace bedload {
@@ -20,15 +21,17 @@ struct VoidFraction {
   Field<Centre> centre;
   FaceFields face;
 };
-void deposit_void_fraction(const StaggeredGrid&, const Grains&, std::span<const Stencil>, VoidFraction&);
+void deposit_void_fraction(const StaggeredGrid&, const Grains&, std::span<const Stencil>, VoidFraction&,
+                           const KernelSmoothing& = {});
 
 /// J = sum V_p v_p w/V_c on faces [m/s].
-void deposit_solid_flux(const StaggeredGrid&, const Grains&, std::span<const Stencil>, FaceFields& flux);
+void deposit_solid_flux(const StaggeredGrid&, const Grains&, std::span<const Stencil>, FaceFields& flux,
+                        const KernelSmoothing& = {});
 
 /// The mean flux over a step that moves solid from `before` (inside the box) by `moved`: the charge-conserving deposit of
 /// Esirkepov 2001 (Comput. Phys. Commun. 135, 144) for these splines, div J dt = phi_before - phi_after to round-off.
 /// Needs every |moved| below one cell edge.
 void deposit_swept_flux(const StaggeredGrid&, const Grains&, std::span<const Vec3> before, std::span<const Vec3> moved,
-                        double dt, FaceFields& flux);
+                        double dt, FaceFields& flux, const KernelSmoothing& = {});
 
 }   // namespace bedload

@@ -52,6 +52,23 @@ TEST(Study, MeasuresInGrainsOfEachCase) {
   EXPECT_EQ(cases[0].scene.grid.cells, (std::array{5, 3, 26}));
 }
 
+TEST(Study, SmoothsByWidthsInGrainsAndKeepsIdsWithoutAny) {
+  const auto with_widths = [](const char* widths) {
+    return with(good_study, "[drive]", std::string("[models]\nsmoothing = ") + widths + "\n[drive]");
+  };
+  EXPECT_EQ(ids_of(good_study), ids_of(with_widths("{ xy = \"0 d\", z = \"0 m\" }")));
+  const auto cases = cases_of(with_widths("{ xy = \"1.5 d\", z = \"0.5 d\" }"));
+  EXPECT_DOUBLE_EQ(cases[0].scene.smoothing.xy, 0.75e-3);
+  EXPECT_DOUBLE_EQ(cases[7].scene.smoothing.z, 0.3e-3);
+  EXPECT_NE(ids_of(good_study), ids_of(with_widths("{ z = \"0.5 d\" }")));
+  EXPECT_NE(complaint(with_widths("{ xy = \"2 d\" }")).find("models.smoothing.xy: a standard deviation of"),
+            std::string::npos);
+  EXPECT_NE(
+      complaint(with(with_widths("{ z = \"0.5 d\" }"), "[models]", "[models]\nterms = [\"drag\", \"wall_forces\"]"))
+          .find("wall_forces takes from a lone grain"),
+      std::string::npos);
+}
+
 TEST(Study, KeepsIdsWhenOnlyTheOnsetCriterionChanges) {
   EXPECT_EQ(ids_of(good_study),
             ids_of(with(good_study, "[drive]", "[onset]\ncriterion = \"moving_fraction\"\nvalue = 0.02\n[drive]")));

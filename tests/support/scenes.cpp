@@ -61,7 +61,7 @@ FaceFields face_void_fraction(const Scene& scene, const State& state) {
   std::vector<Stencil> stencils;
   find_stencils(scene.grid, state.grains, stencils);
   VoidFraction eps(scene.grid);
-  deposit_void_fraction(scene.grid, state.grains, stencils, eps);
+  deposit_void_fraction(scene.grid, state.grains, stencils, eps, KernelSmoothing(scene.grid, scene.smoothing));
   return eps.face;
 }
 

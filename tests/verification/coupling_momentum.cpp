@@ -28,28 +28,40 @@ Terms with_torque(Terms terms = {}) {
   return terms;
 }
 
+constexpr Smoothing wide{.xy = 1.8e-3, .z = 0.9e-3};
+
+/// Magnus, and the terms that look at shear.
+Terms with_lateral(Terms terms = {}) {
+  terms.magnus = terms.shear_lift = terms.exposure = true;
+  return terms;
+}
+
 struct MomentumCase {
   double density_ratio;
   Terms terms{};
+  Smoothing smoothing{};
   friend void PrintTo(const MomentumCase& c, std::ostream* out) {
     *out << "density ratio " << c.density_ratio << ", Model " << (c.terms.model_b() ? "B" : "A")
-         << (c.terms.added_mass ? ", added mass" : "") << (c.terms.viscous_torque ? ", viscous torque" : "");
+         << (c.terms.added_mass ? ", added mass" : "") << (c.terms.viscous_torque ? ", viscous torque" : "")
+         << (c.terms.magnus ? ", lift, Magnus, exposure" : "") << (c.smoothing == Smoothing{} ? "" : ", smoothed");
   }
 };
 class PeriodicSuspension : public testing::TestWithParam<MomentumCase> {};
-INSTANTIATE_TEST_SUITE_P(Momentum, PeriodicSuspension,
-                         testing::Values(MomentumCase{1.05}, MomentumCase{2.65}, MomentumCase{2.65, model_b},
-                                         MomentumCase{1.01, with_added_mass()}, MomentumCase{1.05, with_added_mass()},
-                                         MomentumCase{2.65, with_added_mass()},
-                                         MomentumCase{1.01, with_added_mass(model_b)},
-                                         MomentumCase{2.65, with_added_mass(model_b)},
-                                         MomentumCase{1.05, with_torque(with_added_mass())},
-                                         MomentumCase{2.65, with_torque(model_b)}));
+INSTANTIATE_TEST_SUITE_P(
+    Momentum, PeriodicSuspension,
+    testing::Values(MomentumCase{1.05}, MomentumCase{2.65}, MomentumCase{2.65, model_b},
+                    MomentumCase{1.01, with_added_mass()}, MomentumCase{1.05, with_added_mass()},
+                    MomentumCase{2.65, with_added_mass()}, MomentumCase{1.01, with_added_mass(model_b)},
+                    MomentumCase{2.65, with_added_mass(model_b)}, MomentumCase{1.05, with_torque(with_added_mass())},
+                    MomentumCase{2.65, with_torque(model_b)}, MomentumCase{2.65, with_lateral()},
+                    MomentumCase{2.65, {}, wide}, MomentumCase{1.01, with_torque(with_added_mass()), wide},
+                    MomentumCase{2.65, with_torque(model_b), wide}));
 
 TEST_P(PeriodicSuspension, KeepsItWhileGrainsMoveAndCollide) {
   const double d = 1e-3;
   Scene scene = fluid_scene({4, 4, 8}, {2 * d, 2 * d, d}, periodic_box, 1e-6);
   scene.terms = GetParam().terms;
+  scene.smoothing = GetParam().smoothing;
   add_grains(scene, d, GetParam().density_ratio, 0.1);
   State state = state_of(scene, cubic_places({7, 7, 7}, {}, scene.grid.length(), 0.05 * d, 5), false);
   std::mt19937 random(9);
@@ -71,9 +83,11 @@ TEST_P(PeriodicSuspension, KeepsItWhileGrainsMoveAndCollide) {
 struct BooksCase {
   Terms terms{};
   double viscosity = 1e-6;
+  Smoothing smoothing{};
   friend void PrintTo(const BooksCase& c, std::ostream* out) {
     *out << "viscosity " << c.viscosity << ", Model " << (c.terms.model_b() ? "B" : "A")
-         << (c.terms.added_mass ? ", added mass" : "") << (c.terms.viscous_torque ? ", viscous torque" : "");
+         << (c.terms.added_mass ? ", added mass" : "") << (c.terms.viscous_torque ? ", viscous torque" : "")
+         << (c.terms.magnus ? ", lift, Magnus, exposure" : "") << (c.smoothing == Smoothing{} ? "" : ", smoothed");
   }
 };
 class ShearedMixture : public testing::TestWithParam<BooksCase> {};
@@ -83,7 +97,10 @@ INSTANTIATE_TEST_SUITE_P(Momentum, ShearedMixture,
                                          BooksCase{with_added_mass()}, BooksCase{with_added_mass(model_b)},
                                          BooksCase{with_added_mass(), 1e-2}, BooksCase{with_torque()},
                                          BooksCase{with_torque(with_added_mass(model_b))},
-                                         BooksCase{with_torque(), 1e-2}));
+                                         BooksCase{with_torque(), 1e-2}, BooksCase{with_lateral()},
+                                         BooksCase{with_lateral(model_b)}, BooksCase{{}, 1e-6, wide},
+                                         BooksCase{with_torque(with_added_mass()), 1e-2, wide},
+                                         BooksCase{with_torque(model_b), 1e-6, wide}));
 
 TEST_P(ShearedMixture, IsBookedCompletelyAlongTheFlow) {
   // A tilted channel with a lid and a gradient; fixed and free grains of two sizes and densities. What the fluid gains is
@@ -92,6 +109,7 @@ TEST_P(ShearedMixture, IsBookedCompletelyAlongTheFlow) {
   Scene scene = fluid_scene({4, 4, 12}, {2 * d, 2 * d, d}, channel, GetParam().viscosity);
   scene.bed.gravity = {1.0, 0, -9.7};
   scene.terms = GetParam().terms;
+  scene.smoothing = GetParam().smoothing;
   add_grains(scene, d, 2.65, 0.1);
   State state = state_of(scene, cubic_places({7, 7, 7}, {}, {8 * d, 8 * d, 7.5 * d}, 0.05 * d, 6), false);
   for (std::size_t p = 0; p < state.grains.size(); ++p) {

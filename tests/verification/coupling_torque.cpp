@@ -51,6 +51,40 @@ TEST(ViscousTorque, OnAGrainHeldInShearIsStokes) {
   EXPECT_NEAR(coupler.torque_on_grains()[0].x, 0, 1e-20);
 }
 
+TEST(ViscousTorque, OnAGrainThatTouchesTheBottomInShearIsThatOfGoldmanCoxAndBrenner) {
+  // 0.944 x 4 pi mu gdot a^3. A linear shear is read exactly; the grain displaces 2e-5 of the cell that it touches.
+  for (const bool near : {true, false}) {
+    ShearedGrain grain(true);
+    grain.scene.terms.wall_forces = near;
+    grain.state.grains.position[0].z = 0.5 * d;
+    Coupler coupler(grain.scene);
+    coupler.step(grain.state, 1e-6);
+    const double mu = 1e-2, a = d / 2;
+    EXPECT_NEAR(coupler.torque_on_grains()[0].y / (4 * std::numbers::pi * mu * grain.rate * a * a * a),
+                near ? 0.944 : 1, 1e-4);
+  }
+}
+
+TEST(ViscousTorque, SlowsAGrainThatSpinsBesideAWallMore) {
+  // At a gap of 0.1 a: 0.3817 - 0.4 ln 0.1 about axes along the wall, nothing more about its normal.
+  const double mu = 1e-2, a = d / 2, factor = 0.3817 - 0.4 * std::log(0.1), spin = 2;
+  for (const int axis : {0, 1, 2}) {
+    ShearedGrain grain(false);
+    grain.scene.terms.wall_forces = true;
+    grain.state.search.lid_speed = 0;
+    set_flow_along_x(grain.scene, grain.state, [](double) { return 0; });
+    grain.state.grains.velocity[0] = {};
+    grain.state.grains.position[0].z = 1.1 * a;
+    grain.state.grains.spin[0][axis] = spin;
+    Coupler coupler(grain.scene);
+    const double step = 1e-6, relaxed = 60 * 1e-5 * step / (2.65 * d * d) * factor;   // 3e-4: of the spin, in the step
+    coupler.step(grain.state, step);
+    EXPECT_NEAR(coupler.torque_on_grains()[0][axis] / (-8 * std::numbers::pi * mu * a * a * a * spin),
+                axis == 2 ? 1 : factor, 2 * relaxed);
+    EXPECT_LT(grain.state.grains.spin[0][axis], spin);
+  }
+}
+
 TEST(ViscousTorque, TurnsALoneGrainWithHalfTheVorticity) {
   ShearedGrain grain(false);
   Coupler coupler(grain.scene);

@@ -19,7 +19,7 @@ std::vector<double> coefficients(const Scene& scene, const State& state, bool mo
   extend_samples(scene.grid, eps.centre);
   std::vector<double> sampled, added;
   for (const Stencil& s : stencils) sampled.push_back(sample<on_cells>(s, Strides(scene.grid), eps.centre.data()));
-  find_added_mass(scene.grid, state.grains, stencils, sampled, model_b, added);
+  find_added_mass(scene.grid, state.grains, sampled, model_b, added);
   for (std::size_t p = 0; p < added.size(); ++p) added[p] /= sphere_volume(state.grains.diameter[p]);
   return added;
 }

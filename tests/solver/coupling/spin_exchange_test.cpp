@@ -110,7 +110,7 @@ TEST_P(Couples, ActOnTheFluidAsASymmetricPositiveOperatorOfWhichTheyAreTheGradie
   const State state = state_of(scene, cubic_places({3, 3, 3}, {}, g.length(), 1e-4, 4), true);
   std::vector<Stencil> stencils;
   find_stencils(g, state.grains, stencils);
-  const std::vector<double> strength(stencils.size(), 1e-9);
+  const std::vector<Vec3> strength(stencils.size(), {1e-9, 1e-9, 1e-9});
   SpinExchange spin(g);
   spin.prepare(stencils, strength, std::vector<Vec3>(stencils.size()));
   const FaceFields u = random_velocity(g, 1), v = random_velocity(g, 2);
@@ -144,7 +144,7 @@ TEST(Couples, LeaveLinearMomentumAndGiveTheOppositeAngularMomentum) {
       scene, {{4.2 * edges.x, 3.7 * edges.y, 4.9 * edges.z}, {3.1 * edges.x, 4.4 * edges.y, 3.6 * edges.z}}, true);
   std::vector<Stencil> stencils;
   find_stencils(g, state.grains, stencils);
-  const std::vector<double> strength{2e-9, 3e-9};
+  const std::vector<Vec3> strength{{2e-9, 1e-9, 4e-9}, {3e-9, 5e-9, 2e-9}};
   const std::vector<Vec3> spin_of{{5, -2, 1}, {0.5, 3, -4}};
   SpinExchange spin(g);
   spin.prepare(stencils, strength, spin_of);
@@ -157,7 +157,7 @@ TEST(Couples, LeaveLinearMomentumAndGiveTheOppositeAngularMomentum) {
     f[c] = g.cell_volume() * impulse.component(c)[n];
     linear += f, angular += cross(x, f), scale += norm(f);
   });
-  for (int p : {0, 1}) expected += strength[p] * spin_of[p];
+  for (int p : {0, 1}) expected += scaled(strength[p], spin_of[p]);
   EXPECT_LT(norm(linear) / scale, 1e-14);
   EXPECT_LT(norm(angular - expected) / norm(expected), 1e-12);
 }
