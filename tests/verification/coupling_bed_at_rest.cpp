@@ -19,10 +19,14 @@ double fastest_flow(const Scene& scene, const State& state) {
   return fastest;
 }
 
-TEST(FreeBed, ComesToRestInStillFluid) {
+class FreeBed : public testing::TestWithParam<Smoothing> {};
+INSTANTIATE_TEST_SUITE_P(Kernel, FreeBed, testing::Values(Smoothing{}, Smoothing{.xy = 5e-4, .z = 4e-4}));
+
+TEST_P(FreeBed, ComesToRestInStillFluid) {
   const double d = 5e-4, s = 2.65, nu = 1e-5;
   Scene scene = fluid_scene({4, 4, 20}, {2 * d, 2 * d, 0.5 * d}, channel, nu);
   scene.bed.gravity = {0, 0, -9.81};
+  scene.smoothing = GetParam();
   const double terminal = terminal_speed(DragLawName::di_felice, nu, s, d, 9.81);
   add_grains(scene, d, s, terminal);
   scene.bed.grains.spread = 0.05;
