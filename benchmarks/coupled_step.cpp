@@ -1,4 +1,5 @@
-// The coupled step on a sheared bed of free grains: 2 000 and 20 000 grains, cells of 5 d (the seed paper's) and 2.5 d.
+// The coupled step on a sheared bed of free grains: 2 000 and 20 000 grains, cells of 5 d (those of
+// "Numerical Simulation of Incipient Sediment Motion Driven by Fluid Flow") and 2.5 d.
 #include <benchmark/benchmark.h>
 
 #include "solver/coupler.hpp"

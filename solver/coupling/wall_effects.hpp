@@ -1,7 +1,7 @@
 // What a plane no-slip wall does to a lone sphere near it: factors on drag and torque, and how much of them the grid shows.
 //
 // Distances are from the centre, as k = a/z (1 = touching) or gap = (z - a)/a. Creeping flow; a grain among others
-// (packing density above 0.05) has no such factors, its drag law knows the neighbours.
+// (packing density of the others above 0.04) has no such factors, its drag law knows the neighbours.
 #pragma once
 
 #include <optional>
