@@ -28,6 +28,7 @@ constexpr double largest_cfl = 0.5;
 constexpr double largest_grain_travel = 0.2;   // of a cell edge
 constexpr double harmless_relaxation = 0.2;    // below it even explicit drag is stable
 constexpr double largest_relaxation = 200;     // a = beta T/M of any grain
+constexpr int least_substeps = 4;              // where drag holds grains fast, a > 1
 constexpr double explicit_viscosity_limit = 1.0 / 12;
 // Of the divergence that the projection starts with. Momentum does not depend on it, and the kick leaves more than this
 // around grains that move; where none does, only the next limit counts, so that volume is kept whatever happens.
@@ -135,7 +136,8 @@ struct Coupler::Parts {
   FaceFields acceleration, laplace, impulse, flux, solid_flux;
   MixtureResponse response;
   Field<Centre> rhs, correction;
-  FaceFields kick, carried, seen;   // seen: what grains read of a field; only with a smoothing
+  FaceFields kick, carried, shared;
+  FaceFields seen;   // what grains read of a field; only with a smoothing
   TransportScratch transport_scratch;
   FlowAtGrains flow;
   Sheltering sheltering;
@@ -165,10 +167,11 @@ struct Coupler::Parts {
   void place_on_grid(const Grains&);
   void accelerate_faces(State&);
   void book_wall_shear(const FaceFields& velocity);
+  FaceFields& on_grains(FaceFields& acceleration);
   void sample_at_grains(State&);
   double choose_step(const State&, double longest);
   double courant_rate(const FaceFields& velocity) const;
-  void limit_by_grains(const State&, double& step);
+  int limit_by_grains(const State&, double& step);
   void shorten(double& step, double limit, StepLimit by);
   void predict_grains(const State&, double dt);
   void predict_spins(const State&, double dt);
@@ -279,9 +282,17 @@ void Coupler::Parts::book_wall_shear(const FaceFields& velocity) {
   if (turbulence) add(turbulence->wall_shear(velocity));
 }
 
+/// What grains see of an acceleration that fluid and grains share: on overfilled faces, the part that is left to them.
+FaceFields& Coupler::Parts::on_grains(FaceFields& all) {
+  if (before.overfilled.empty()) return all;
+  shared = all;
+  for (const OverfilledFace& f : before.overfilled) shared.component(f.direction)[f.face] *= f.grain_share;
+  return shared;
+}
+
 void Coupler::Parts::sample_at_grains(State& state) {
   Stopwatch watch(times.sample);
-  sample_flow(grid, state.grains, stencils, state.fluid.velocity, acceleration, before.centre, law,
+  sample_flow(grid, state.grains, stencils, state.fluid.velocity, on_grains(acceleration), before.centre, law,
               scene.bed.fluid.viscosity, scene.terms, flow, smoothing);
   health.void_clamps = flow.void_clamps;
   health.disturbance_clamps = flow.disturbance_clamps;
@@ -319,8 +330,8 @@ double Coupler::Parts::choose_step(const State& state, double longest) {
   double step = longest;
   if (rate > 0) shorten(step, largest_cfl / rate, StepLimit::cfl);
   if (any_mobile(state.grains)) {
-    limit_by_grains(state, step);
-    health.substeps = std::max(1, static_cast<int>(step / scene.bed.dem_step * (1 + 1e-12)));
+    const int least = limit_by_grains(state, step);
+    health.substeps = std::max(least, static_cast<int>(step / scene.bed.dem_step * (1 + 1e-12)));
     step = std::min(step, health.substeps * scene.bed.dem_step);
   }
   health.cfl = step * rate;
@@ -329,7 +340,9 @@ double Coupler::Parts::choose_step(const State& state, double longest) {
 }
 
 /// Travel, relaxation by drag, half the duration of a collision, a tenth of the time in which a grain falls its diameter.
-void Coupler::Parts::limit_by_grains(const State& state, double& step) {
+/// Returns the least number of sub-steps: in a single one a dashpot sees, of grains that drag holds fast, only the change of
+/// contact forces since the last step, which drag has not met yet, and drives it up.
+int Coupler::Parts::limit_by_grains(const State& state, double& step) {
   const Grains& grains = state.grains;
   const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
   double fastest = 0;
@@ -345,6 +358,7 @@ void Coupler::Parts::limit_by_grains(const State& state, double& step) {
   const double weak_drag = harmless_relaxation * relaxation_time;
   shorten(step, std::max(0.5 * shortest_contact(grains, scene.bed.grains, fastest), weak_drag), StepLimit::contact);
   shorten(step, 0.1 * fall_time, StepLimit::weight);
+  return step > relaxation_time ? least_substeps : 1;
 }
 
 Vec3 Coupler::Parts::weight(double density) const {
@@ -588,7 +602,7 @@ void Coupler::Parts::deposit_at_new_positions(const State& state, double dt) {
   deposit_void_fraction(grid, grains, stencils, after, smoothing);
   fill_face_ghosts(grid, after.face);
   deposit_solid_flux(grid, grains, stencils, solid_flux, smoothing);
-  find_mixture_response(grid, grains, stencils, exchange, scene.bed.fluid.density, after.face, model_b(), response,
+  find_mixture_response(grid, grains, stencils, exchange, scene.bed.fluid.density, after, model_b(), response,
                         smoothing);
 }
 

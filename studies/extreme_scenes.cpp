@@ -34,7 +34,8 @@ const std::vector<Factor>& single_factors() {
       {{"slope -20", "box.slope = \"-20 deg\""}, {"slope 25", "box.slope = \"25 deg\""}},
       {{"restitution 0", "grains.restitution = 0.0"}, {"restitution 1", "grains.restitution = 1.0"}},
       {{"friction 0", "grains.friction = 0.0"}, {"friction 1", "grains.friction = 1.0"}},
-      {{"spread 0.3", "grains.spread = 0.3\nbox.width = \"8 d\"\nbox.cell.xy = \"2.7 d\"\nbox.cell.z = \"0.75 d\""}},
+      {{"spread 0.3",
+        "grains.spread = 0.3\nbox.width = \"8 d\"\nbox.cell.xy = \"2.7 d\"\nbox.cell.z = \"0.75 d\"\nbed.count = 90"}},
       {{"one layer", "bed.count = 36"}},
   };
   return factors;

@@ -21,7 +21,7 @@ void deposit_mobile(const Stencil& s, Strides stride, double exchange, double vo
 }   // namespace
 
 void find_mixture_response(const StaggeredGrid& g, const Grains& grains, std::span<const Stencil> stencils,
-                           std::span<const Vec3> exchange, double fluid_density, const FaceFields& void_fraction,
+                           std::span<const Vec3> exchange, double fluid_density, const VoidFraction& void_fraction,
                            bool model_b, MixtureResponse& m, const KernelSmoothing& smoothing) {
   clear(m.locked_exchange), clear(m.mobile_exchange), clear(m.mobile_fraction), clear(m.mobile_inertia);
   const Strides stride(g);
@@ -41,18 +41,24 @@ void find_mixture_response(const StaggeredGrid& g, const Grains& grains, std::sp
     if (grains.size() > 0) fold_deposits(g, *f), smoothing.spread(*f);
   for (int c = 0; c < 3; ++c) {
     double *cf = m.fluid.component(c), *cp = m.grains.component(c), *both = m.coefficient.component(c);
+    double* phi = m.mobile_fraction.component(c);
     const double *bl = m.locked_exchange.component(c), *bm = m.mobile_exchange.component(c),
-                 *phi = m.mobile_fraction.component(c), *inertia = m.mobile_inertia.component(c),
-                 *eps = void_fraction.component(c);
-    for_each_unknown_face(g, c, [&](std::size_t n) {
-      const double on_fluid = model_b ? 1 : eps[n], on_grains = model_b ? 0 : phi[n];
+                 *inertia = m.mobile_inertia.component(c), *eps = void_fraction.face.component(c);
+    const auto respond = [&](std::size_t n, double taken) {
+      const double on_fluid = model_b ? 1 : eps[n], on_grains = model_b ? 0 : taken;
       const double fluid_side = eps[n] + bl[n], grain_side = inertia[n] + bm[n];
       const double determinant = fluid_side * grain_side + bm[n] * inertia[n];
       const bool mobile = determinant > 0;
       cf[n] = mobile ? (on_fluid * grain_side + bm[n] * on_grains) / determinant : on_fluid / fluid_side;
       cp[n] = mobile ? ((fluid_side + bm[n]) * on_grains + bm[n] * on_fluid) / determinant : 0;
       both[n] = eps[n] * cf[n] + phi[n] * cp[n];
-    });
+    };
+    for_each_unknown_face(g, c, [&](std::size_t n) { respond(n, phi[n]); });
+    for (const OverfilledFace& f : void_fraction.overfilled) {
+      if (f.direction != c) continue;
+      respond(f.face, f.grain_share * phi[f.face]);
+      phi[f.face] *= f.grain_share;
+    }
   }
 }
 

@@ -23,14 +23,15 @@ struct MixtureResponse {
         mobile_inertia(g) {}
   FaceFields fluid, grains, coefficient;         // cf, cp, eps cf + phi_M cp
   FaceFields locked_exchange, mobile_exchange;   // B of fixed grains, of all others: sum w beta T/V_c
-  FaceFields mobile_fraction, mobile_inertia;    // phi_M, and sum w M/(rho_f V_c)
+  FaceFields mobile_fraction, mobile_inertia;    // share of the pressure's force (phi_M), and sum w M/(rho_f V_c)
 };
 
 /// Backward Euler on the pair of fluid and mobile grains at each face, coupled by drag:
 ///   (eps + B_L + B_M) cf - B_M cp = eps,   (phi_M s + B_M) cp - B_M cf = phi_M     (Model A)
-/// with 1 and 0 on the right in Model B, where pressure acts on the fluid alone.
+/// with 1 and 0 on the right in Model B, where pressure acts on the fluid alone. On an overfilled face the right-hand phi_M is
+/// the part that fits.
 void find_mixture_response(const StaggeredGrid&, const Grains&, std::span<const Stencil>,
-                           std::span<const Vec3> exchange, double fluid_density, const FaceFields& void_fraction,
-                           bool model_b, MixtureResponse&, const KernelSmoothing& = {});
+                           std::span<const Vec3> exchange, double fluid_density, const VoidFraction&, bool model_b,
+                           MixtureResponse&, const KernelSmoothing& = {});
 
 }   // namespace bedload

@@ -81,6 +81,13 @@ void deposit_void_fraction(const StaggeredGrid& grid, const Grains& grains, std:
   for (double& e : eps.centre.values) e += 1;
   for (int c = 0; c < 3; ++c)
     for (double *e = eps.face.component(c), *end = e + grid.padded_size(); e != end; ++e) *e += 1;
+  eps.overfilled.clear();
+  for (int c = 0; c < 3; ++c)
+    for_each_unknown_face(grid, c, [&, e = eps.face.component(c)](std::size_t n) {
+      if (e[n] >= least_face_void) return;
+      eps.overfilled.push_back({c, n, (1 - least_face_void) / (1 - e[n])});
+      e[n] = least_face_void;
+    });
 }
 
 void deposit_solid_flux(const StaggeredGrid& grid, const Grains& grains, std::span<const Stencil> stencils,

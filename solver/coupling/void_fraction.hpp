@@ -13,13 +13,26 @@ namespace bedload {
 /// The stencils of all grains, by id. Positions lie inside the box.
 void find_stencils(const StaggeredGrid&, const Grains&, std::vector<Stencil>& stencils);
 
-/// eps on centres and on faces: 1 - sum V_p w/V_c, in order of id. On the faces of walls only the change in time has a meaning
-/// (half a control volume).
+/// Least eps of a face. A layer of grains whose centres lie in the plane of flat cells' faces, as on a flat bottom, would
+/// overfill these (all of a grain is deposited within one cell height): the fluid there would have no mass, or less.
+inline constexpr double least_face_void = 0.2;
+
+/// A face with more solid than fits. Fluid and grains divide what acts on it as eps and 1 - eps, of which each grain takes
+/// its weight times `grain_share` = (1 - eps)/sum V_p w/V_c.
+struct OverfilledFace {
+  int direction;
+  std::size_t face;   // padded index
+  double grain_share;
+};
+
+/// eps on centres and on faces: 1 - sum V_p w/V_c, in order of id, on unknown faces never below least_face_void. On the
+/// faces of walls only the change in time has a meaning (half a control volume).
 struct VoidFraction {
   VoidFraction() = default;
   explicit VoidFraction(const StaggeredGrid& g) : centre(g, 1), face(g, 1) {}
   Field<Centre> centre;
   FaceFields face;
+  std::vector<OverfilledFace> overfilled;   // by direction, then by face; seldom any
 };
 void deposit_void_fraction(const StaggeredGrid&, const Grains&, std::span<const Stencil>, VoidFraction&,
                            const KernelSmoothing& = {});

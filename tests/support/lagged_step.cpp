@@ -88,7 +88,7 @@ void LaggedStep::step(State& state, double dt, int substeps) {
   deposit_solid_flux(grid_, grains, stencils_, solid_flux_);
   Grains held = grains;   // the pressure equation of a fluid between grains that do not give way
   held.fixed.assign(count, 1);
-  find_mixture_response(grid_, held, stencils_, exchange, rho, after_.face, false, response_);
+  find_mixture_response(grid_, held, stencils_, exchange, rho, after_, false, response_);
   for (int c = 0; c < 3; ++c)
     for_each_unknown_face(grid_, c, [&](std::size_t n) {
       solid_flux_.component(c)[n] += after_.face.component(c)[n] * u.component(c)[n];

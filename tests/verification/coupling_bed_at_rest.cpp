@@ -50,5 +50,26 @@ TEST_P(FreeBed, ComesToRestInStillFluid) {
   EXPECT_LT(late, early);
 }
 
+TEST(FreeBed, StaysAtRestWhereDragHoldsItsGrainsFastAndContactsAreDamped) {
+  // Grains that lose all in a collision, in a syrup: dashpots and drag both far stronger than inertia, and steps of less
+  // than a DEM step each. The close lattice has contacts on all sides.
+  const double d = 5e-4, s = 2, nu = 1e-2;
+  Scene scene = fluid_scene({4, 4, 12}, {2 * d, 2 * d, 0.5 * d}, channel, nu);
+  scene.bed.gravity = {0, 0, -9.81};
+  add_grains(scene, d, s, 0.02);
+  scene.bed.grains.restitution = 0;
+  State state = state_of(scene, cubic_places({8, 8, 4}, {}, {8 * d, 8 * d, 3.97 * d}, 0.005 * d, 4), false);
+  Coupler coupler(scene);
+  double fastest = 0;
+  for (int i = 0; i < 300; ++i) {
+    const StepHealth health = coupler.step(state, scene.steps.fluid_interval);
+    ASSERT_TRUE(health.finite && !health.lost_grain);
+    ASSERT_LT(health.dt, 4 * scene.bed.dem_step);   // else this tests nothing
+    if (i < 100) continue;
+    for (const Vec3& v : state.grains.velocity) fastest = std::max(fastest, norm(v));
+  }
+  EXPECT_LT(fastest, 1e-3);
+}
+
 }   // namespace
 }   // namespace bedload::test

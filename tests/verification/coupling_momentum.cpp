@@ -4,6 +4,7 @@
 #include <random>
 
 #include "solver/coupler.hpp"
+#include "solver/fluid/face_loops.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bedload::test {
@@ -135,6 +136,47 @@ TEST_P(ShearedMixture, IsBookedCompletelyAlongTheFlow) {
                          std::abs(before) / health.dt;
     EXPECT_NEAR((fluid_momentum() - before) / health.dt / scale, booked / scale, 1e-12);
   }
+}
+
+/// A flat layer on the bottom whose faces would hold more solid than fits, below a sheared liquid.
+class OverfilledLayer : public testing::TestWithParam<Terms> {};
+INSTANTIATE_TEST_SUITE_P(Momentum, OverfilledLayer,
+                         testing::Values(Terms{}, model_b, with_added_mass(), with_torque(with_added_mass())));
+
+TEST_P(OverfilledLayer, IsBookedAndKeepsTheFlowWithinWhatDrivesIt) {
+  const double d = 1e-3, lid = 0.05;
+  Scene scene = fluid_scene({4, 4, 12}, {2 * d, 2 * d, 0.5 * d}, channel, 1e-5);
+  scene.bed.gravity = {0.5, 0, -9.8};
+  scene.bed.grains.friction = 0;
+  scene.terms = GetParam();
+  add_grains(scene, d, 2.65, 0.1);
+  State state =
+      state_of(scene, cubic_places({8, 8, 1}, {0, 0, 0.49 * d}, {8 * d, 8 * d, 0.51 * d}, 0.005 * d, 6), false);
+  state.search.lid_speed = lid;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (int k = 0; k < 12; ++k)
+        state.fluid.velocity.x[scene.grid.index(i, j, k)] = lid * std::max(0.0, (k + 0.5) / 12 * 1.2 - 0.2);
+  const FaceFields eps = bedload::test::face_void_fraction(scene, state);
+  EXPECT_EQ(eps.z[scene.grid.index(1, 1, 1)], 0.2);
+  Coupler coupler(scene);
+  const double start = total_momentum(scene, state).x;
+  double given = 0, handled = 0, fastest = 0;
+  for (int i = 0; i < 300; ++i) {
+    const StepHealth health = coupler.step(state, scene.steps.fluid_interval);
+    ASSERT_TRUE(health.finite && !health.lost_grain) << i;
+    const StepBooks& books = coupler.books();
+    double force = books.driving.x - books.on_bottom.x - books.on_lid.x - books.contact_on_walls.x;
+    for (std::size_t p = 0; p < state.grains.size(); ++p)
+      force += (state.grains.density[p] - 1000) * sphere_volume(d) * scene.bed.gravity.x;
+    given += force * health.dt, handled += std::abs(force) * health.dt;
+    for (int c = 0; c < 3; ++c)
+      for_each_unknown_face(scene.grid, c, [&, u = state.fluid.velocity.component(c)](std::size_t n) {
+        fastest = std::max(fastest, std::abs(u[n]));
+      });
+  }
+  EXPECT_NEAR(total_momentum(scene, state).x - start, given, 1e-10 * (handled + std::abs(start)));
+  EXPECT_LT(fastest, 1.5 * lid);   // grains roll down a slope of 3 degrees; nothing is faster than the lid
 }
 
 }   // namespace

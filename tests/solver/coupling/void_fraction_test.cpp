@@ -1,6 +1,7 @@
 // Grains on the grid: volumes are conserved, and the fluxes on faces fit the void fraction of cells.
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 
 #include "solver/coupling/void_fraction.hpp"
@@ -160,6 +161,48 @@ TEST(Kernel, DepositIsTheTransposeOfSample) {
       pairing += sum_over_faces(g, c, [&](std::size_t n) { return field.component(c)[n] * spread.component(c)[n]; });
     EXPECT_NEAR(pairing, dot(f, sample(s, Strides(g), field)), 1e-13);
   }
+}
+
+/// A flat layer of touching spheres on the bottom, with their centres in the plane of the faces of flat cells.
+Grains flat_layer(const StaggeredGrid& g, double d) {
+  Grains grains;
+  const Vec3 length = g.length();
+  const int across = static_cast<int>(std::round(length.x / d)), deep = static_cast<int>(std::round(length.y / d));
+  grains.resize(static_cast<std::size_t>(across * deep));
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const auto i = static_cast<int>(p) / deep, j = static_cast<int>(p) % deep;
+    grains.position[p] = {(i + 0.5) * d, (j + 0.5) * d, d / 2};
+    grains.diameter[p] = d, grains.density[p] = 2650;
+  }
+  return grains;
+}
+
+TEST(VoidFraction, OfAnOverfilledFaceIsWhatSpheresLeaveAndItsGrainsShareTheRest) {
+  StaggeredGrid g;
+  const double d = 1e-3;
+  g.cells = {4, 4, 6}, g.h = {2 * d, 2 * d, 0.45 * d};
+  g.sides = {Side::periodic, Side::periodic, Side::wall};
+  Grains grains = flat_layer(g, d);
+  for (Vec3& x : grains.position) x.z = g.h.z;   // pi/6 d^3 in a cell's height d^2 h_z: more than fits
+  std::vector<Stencil> stencils;
+  find_stencils(g, grains, stencils);
+  VoidFraction eps(g);
+  deposit_void_fraction(g, grains, stencils, eps);
+  const double solid = std::numbers::pi / 6 * d / g.h.z;
+  ASSERT_GT(solid, 1);
+  ASSERT_EQ(eps.overfilled.size(), 16u);   // the faces of that plane, and no others
+  for (const OverfilledFace& f : eps.overfilled) {
+    EXPECT_EQ(f.direction, 2);
+    EXPECT_EQ(eps.face.z[f.face], least_face_void);
+    EXPECT_NEAR(eps.face.z[f.face] + f.grain_share * solid, 1, 1e-12);
+  }
+
+  for (std::size_t p = 0; p < grains.size(); ++p)   // half of it on either face
+    grains.position[p].z = 1.5 * g.h.z, grains.diameter[p] = 0.9 * d;
+  find_stencils(g, grains, stencils);
+  deposit_void_fraction(g, grains, stencils, eps);
+  EXPECT_TRUE(eps.overfilled.empty());
+  EXPECT_NEAR(eps.face.z[g.index(1, 1, 1)], 1 - 0.729 * solid / 2, 1e-12);
 }
 
 }   // namespace
