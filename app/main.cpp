@@ -159,7 +159,8 @@ void CommandLine::validate_commands() {
   validate->add_flag("--quick,--short", validate_.quick, "a part of them: at most 3 minutes on 2 cores");
   validate->add_flag("--list", validate_.list, "which studies there are; run nothing");
   validate->add_option("--cores", validate_.cores, "cases side by side (default: all cores)")->check(check_workers);
-  validate->add_option("--write", validate_.write, "write verification.md and its figures into this folder");
+  validate->add_option("--write", validate_.write,
+                       "write verification.md and its figures (extremes: extremes.md) into this folder");
   forms(validate);
 }
 

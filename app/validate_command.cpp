@@ -9,7 +9,7 @@
 #include "app/tables.hpp"
 #include "base/durable_file.hpp"
 #include "base/log.hpp"
-#include "studies/extremes.hpp"
+#include "studies/extremes_document.hpp"
 #include "studies/validation.hpp"
 #include "studies/verification_document.hpp"
 
@@ -102,6 +102,11 @@ int validate_extremes(const ValidateOptions& options) {
                                   .cores = options.cores.value_or(0),
                                   .progress = [](const std::string& line) { log_note(line); }});
   fmt::print("{}", printed(extremes_table(rows), options.form));
+  if (options.write) {
+    const auto file = extremes_document(rows, command_line(options));
+    publish(fs::path(*options.write) / file.path, file.text);
+    log_note(fmt::format("wrote {}", (fs::path(*options.write) / file.path).string()));
+  }
   const auto wrong = std::ranges::count_if(rows, [](const ExtremeRow& row) { return !row.wrong().empty(); });
   log_note(fmt::format("{} of {} scenes as they must be", std::ssize(rows) - wrong, rows.size()));
   return wrong == 0 ? 0 : static_cast<int>(ErrorKind::some_failed);
@@ -110,9 +115,9 @@ int validate_extremes(const ValidateOptions& options) {
 /// True if the extremes are asked for: alone, since they are no rows of the ladder.
 bool wants_extremes(const ValidateOptions& options) {
   if (std::ranges::find(options.groups, "extremes") == options.groups.end()) return false;
-  if (options.groups.size() == 1 && !options.list && !options.write) return true;
-  throw Error(ErrorKind::usage, "the extremes are run by themselves, and neither listed nor written",
-              "bedload validate extremes [--quick] [--json]");
+  if (options.groups.size() == 1 && !options.list) return true;
+  throw Error(ErrorKind::usage, "the extremes are run by themselves, and not listed",
+              "bedload validate extremes [--quick] [--json] [--write docs]");
 }
 
 }   // namespace

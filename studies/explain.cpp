@@ -106,6 +106,9 @@ std::vector<std::string> story_of(const CaseEntry& entry, const fs::path& direct
   if (!entry.bed.empty() && !has_bed(directory))
     story.push_back(fmt::format("its bed {} has not settled yet", entry.bed.substr(0, 12)));
   const auto newest = newest_position(directory);
+  if (const auto state = newest_whole(directory, [](const std::string&) {}); state && state->clock.retries > 0)
+    story.push_back(fmt::format("{} step{} taken again shorter", state->clock.retries,
+                                state->clock.retries == 1 ? " was" : "s were"));
   story.push_back(prospect({newest ? newest->step : 0, newest && newest->finished}, attempts, directory));
   if (!entry.in_study) story.push_back("it is no longer in the study file: its results are kept, out of the curve");
   return story;

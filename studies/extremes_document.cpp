@@ -1,0 +1,74 @@
+// Rows of the matrix to Markdown.
+#include "studies/extremes_document.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/build_info.hpp"
+
+namespace bedload {
+namespace {
+
+constexpr std::string_view preface = R"(# Extremes
+
+Written by `{}`, bedload {} ({}). Do not edit: run the command.
+
+Scenes at the edges of what can be asked for: one factor at a time around two beds, special arrangements of grains, and a set
+in which every pair of levels of seven factors occurs. Each is a study file of [studies/validation](../studies/validation) and
+the keys that are put in place of the file's. Each runs to its end, is refused, or fails with a word; what it was to do stands
+in the verdict. Books are the worst over all steps (docs/physics_coupling.md): *volume* of the fluid against box less grains,
+*momentum* that a step made, of all that changed hands (periodic scenes), *divergence* div(eps u + J) T that a step left (bounded
+where grains move, else at most 1e-8), *energy* made without a source, of what was exchanged. *resumed*: the run, saved and
+loaded half way, ends in the same bytes. {} of {} scenes are as they must be; {:.1f} core minutes.
+)";
+
+constexpr std::string_view head =
+    "\n## {}\n\n| scene | outcome | grains | steps | retries | CFL | overlap/d | volume | momentum | divergence | "
+    "energy | "
+    "resumed | verdict |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+
+std::string number(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
+std::string number(const std::optional<double>& value) { return value ? number(*value) : "-"; }
+
+std::string line_of(const ExtremeRow& row) {
+  constexpr const char* words[] = {"finished", "refused", "failed"};
+  const std::string wrong = row.wrong(), verdict = wrong.empty() ? "right" : fmt::format("**{}**", wrong);
+  if (row.outcome == Outcome::refused)
+    return fmt::format("| {} | refused | | | | | | | | | | | {} |\n", row.scene.name, verdict);
+  const Books& books = row.books;
+  return fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {:.3f} | {} | {} | {} | {} | {} | {} |\n", row.scene.name,
+                     words[int(row.outcome)], row.grains, row.steps, row.retries, row.cfl, row.overlap,
+                     number(books.fluid_volume), number(books.momentum), number(books.divergence), number(books.energy),
+                     row.resumed_is_straight ? "same" : "no", verdict);
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}   // namespace
+
+DocumentFile extremes_document(const std::vector<ExtremeRow>& rows, const std::string& command) {
+  const auto right = std::ranges::count_if(rows, [](const ExtremeRow& row) { return row.wrong().empty(); });
+  double core_seconds = 0;
+  std::string base, tables, messages;
+  std::vector<ExtremeRow> sorted = rows;
+  std::ranges::stable_sort(sorted, {}, [](const ExtremeRow& row) { return row.scene.base; });
+  for (const ExtremeRow& row : sorted) {
+    core_seconds += row.core_seconds;
+    if (row.scene.base != base) {
+      base = row.scene.base;
+      tables += fmt::format(fmt::runtime(head), base);
+    }
+    tables += line_of(row);
+    if (!row.message.empty())
+      messages += fmt::format("- {}, {}: {}\n", row.scene.base, row.scene.name, first_line(row.message));
+  }
+  const auto build = build_info();
+  std::string text =
+      fmt::format(fmt::runtime(preface), command, build.version, build.commit, right, rows.size(), core_seconds / 60);
+  text += tables;
+  if (!messages.empty()) text += "\n## What was said\n\n" + messages;
+  return {"extremes.md", text};
+}
+
+}   // namespace bedload

@@ -1,0 +1,15 @@
+// docs/extremes.md: the matrix of the extremes as it was last run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/extremes.hpp"
+#include "studies/verification_document.hpp"
+
+namespace bedload {
+
+/// extremes.md; `command` is what was run, and makes it again. Apart from computing times the same matrix gives the same bytes.
+DocumentFile extremes_document(const std::vector<ExtremeRow>&, const std::string& command);
+
+}   // namespace bedload
