@@ -31,12 +31,14 @@ int list_rungs(const std::vector<ValidationGroup>& groups, const ValidateOptions
 }
 
 Rows as_rows(const std::vector<RungResult>& rungs) {
-  Rows rows{{"group", "row", "reference", "ours", "deviation", "band", "pass"}, {}};
+  Rows rows{{"study", "row", "reference", "ours", "deviation", "band", "pass", "source"}, {}};
   for (const auto& rung : rungs) {
     for (const auto& row : rung.findings.rows)
-      rows.rows.push_back({rung.group, row.name, row.reference, row.ours, shown_deviation(row), shown_band(row),
-                           std::string(row.in_band() ? "pass" : "NO")});
-    if (!rung.failure.empty()) rows.rows.push_back({rung.group, rung.study, {}, {}, {}, {}, std::string("NOT RUN")});
+      rows.rows.push_back({rung.study, row.name, row.decides() ? Value(row.reference) : Value(), row.ours,
+                           shown_deviation(row), shown_band(row), std::string(shown_verdict(row)),
+                           row.decides() ? fmt::format("{}: {}", shown_against(row), row.source) : row.source});
+    if (!rung.failure.empty())
+      rows.rows.push_back({rung.study, std::string("all rows"), {}, {}, {}, {}, std::string("NOT RUN"), rung.failure});
   }
   return rows;
 }
@@ -47,13 +49,13 @@ nlohmann::ordered_json as_json(const RungResult& rung) {
     rows.push_back({{"row", row.name},
                     {"reference", row.reference},
                     {"source", row.source},
-                    {"against", row.against == Against::equations ? "code" : "experiment"},
+                    {"against", shown_against(row)},
                     {"ours", row.ours},
                     {"deviation", row.deviation()},
                     {"relative", row.band.relative},
                     {"band_below", row.band.below},
                     {"band_above", row.band.above},
-                    {"pass", row.in_band()}});
+                    {"pass", row.decides() ? nlohmann::json(row.in_band()) : nlohmann::json()}});
   return {{"group", rung.group},
           {"study", rung.study},
           {"what", rung.what},
@@ -88,8 +90,7 @@ void print_summary(const std::vector<RungResult>& rungs, double wall) {
   std::size_t rows = 0, good = 0;
   double core_seconds = 0;
   for (const auto& rung : rungs) {
-    rows += rung.findings.rows.size();
-    good += static_cast<std::size_t>(std::ranges::count_if(rung.findings.rows, &ValidationRow::in_band));
+    rows += rung.findings.deciding(), good += rung.findings.in_band();
     core_seconds += rung.core_seconds;
     if (!rung.failure.empty()) log_warning(fmt::format("{} was not run to its end: {}", rung.study, rung.failure));
   }

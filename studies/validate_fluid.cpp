@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "solver/fluid/wall_law.hpp"
 #include "studies/svg_plot.hpp"
 #include "studies/validation.hpp"
 
@@ -233,8 +232,8 @@ Findings log_layer(const std::vector<FinishedCase>& runs) {
     const double driven = scene.drive.levels.front() * depth, u_star = std::sqrt(driven / scene.bed.fluid.density);
     const double rough = scene.bottom_roughness;
     const auto law = [&](double z) {
-      if (rough > 0) return std::log(z / roughness_length(rough)) / von_karman;
-      return std::log(z * u_star / nu) / von_karman + smooth_wall_intercept;
+      if (rough > 0) return std::log(30 * z / rough) / 0.41;
+      return std::log(z * u_star / nu) / 0.41 + 5.2;
     };
     const char* name = rough > 0 ? "rough" : "smooth";
     for (const double z : {0.2, 0.4, 0.6, 0.8})

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "studies/study_file.hpp"
+#include "studies/study_keys.hpp"
 #include "studies/validation_files.hpp"
 
 namespace bedload {
@@ -41,11 +42,18 @@ double ValidationRow::deviation() const {
 
 bool ValidationRow::in_band() const {
   const double off = deviation();
-  return std::isfinite(off) && off >= -band.below && off <= band.above;
+  return decides() && std::isfinite(off) && off >= -band.below && off <= band.above;
+}
+
+std::size_t Findings::deciding() const {
+  return static_cast<std::size_t>(std::ranges::count_if(rows, &ValidationRow::decides));
+}
+std::size_t Findings::in_band() const {
+  return static_cast<std::size_t>(std::ranges::count_if(rows, &ValidationRow::in_band));
 }
 
 bool RungResult::passed() const {
-  return failure.empty() && !findings.rows.empty() && std::ranges::all_of(findings.rows, &ValidationRow::in_band);
+  return failure.empty() && findings.deciding() > 0 && findings.in_band() == findings.deciding();
 }
 
 std::span<const ValidationGroup> validation_groups() { return groups; }
@@ -57,10 +65,13 @@ std::vector<ValidationGroup> groups_named(const std::vector<std::string>& names)
     if (std::ranges::find(names, group.name) != names.end()) named.push_back(group);
   for (const auto& name : names) {
     if (std::ranges::find(groups, name, &ValidationGroup::name) != std::end(groups)) continue;
-    std::string all;
-    for (const auto& group : groups) all += fmt::format("{}{}", all.empty() ? "" : ", ", group.name);
+    std::string all, choices = "extremes";
+    for (const auto& group : groups)
+      all += fmt::format("{}{}", all.empty() ? "" : ", ", group.name), choices += fmt::format("|{}", group.name);
+    const auto nearest = nearest_word(name, choices);
     throw Error(ErrorKind::usage, fmt::format("there is no validation group \"{}\"", name),
-                fmt::format("the groups are {} and extremes", all));
+                fmt::format("{}the groups are {} and extremes",
+                            nearest.empty() ? "" : fmt::format("did you mean {}? ", nearest), all));
   }
   return named;
 }

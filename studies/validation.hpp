@@ -18,8 +18,9 @@
 
 namespace bedload {
 
-/// What `ours` is held against: the exact answer of the equations that are solved, or an experiment.
-enum class Against { equations, experiment };
+/// What `ours` is held against: the exact answer of the equations that are solved, an experiment, or nothing: a row for
+/// information, which never decides.
+enum class Against { equations, experiment, nothing };
 
 /// How far `ours` may lie from the reference. An infinite side is open.
 struct Band {
@@ -41,8 +42,15 @@ struct ValidationRow {
   Band band;
   Against against = Against::equations;
 
+  /// A row that tells `ours` and how it was had, and decides nothing.
+  static ValidationRow note(std::string name, std::string how, double ours) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    return {std::move(name), none, std::move(how), ours, {}, Against::nothing};
+  }
+  bool decides() const { return against != Against::nothing; }
+
   double deviation() const;   // of ours; a fraction of |reference| if the band is relative, else in the row's unit
-  bool in_band() const;
+  bool in_band() const;       // false for a note
 };
 
 /// A curve that says more than a number; docs/verification.md shows it.
@@ -55,6 +63,9 @@ struct ValidationFigure {
 struct Findings {
   std::vector<ValidationRow> rows;
   std::vector<ValidationFigure> figures;
+
+  std::size_t deciding() const;   // rows that are no notes
+  std::size_t in_band() const;    // of these
 };
 
 /// A case that ran to its end, and all that can be read from it.

@@ -83,9 +83,8 @@ void measure(Climb& climb) {
 
 std::string summary(const RungResult& r) {
   if (!r.failure.empty()) return fmt::format("{}: {}", r.study, r.failure);
-  const auto good = std::ranges::count_if(r.findings.rows, &ValidationRow::in_band);
-  return fmt::format("{}: {} of {} rows in band, {} cases, {:.1f} core seconds", r.study, good, r.findings.rows.size(),
-                     r.cases, r.core_seconds);
+  return fmt::format("{}: {} of {} rows in band, {} cases, {:.1f} core seconds", r.study, r.findings.in_band(),
+                     r.findings.deciding(), r.cases, r.core_seconds);
 }
 
 }   // namespace

@@ -19,8 +19,6 @@ std::string of_row(const ValidationRow& row, double number, bool with_sign) {
   return row.band.relative ? text + " %" : text;
 }
 
-std::string_view against(const ValidationRow& row) { return row.against == Against::equations ? "code" : "experiment"; }
-
 /// A picture in a report takes the page's style; alone in its file it brings its own.
 std::string standing_alone(const std::string& svg) {
   constexpr std::string_view style =
@@ -44,9 +42,11 @@ std::string capital(std::string_view phrase) {
 std::string table_of(const Findings& findings) {
   std::string text = "| | reference | ours | deviation | band | | against |\n|---|---|---|---|---|---|---|\n";
   for (const auto& row : findings.rows)
-    text +=
-        fmt::format("| {} | {:.5g} | {:.5g} | {} | {} | {} | {}: {} |\n", row.name, row.reference, row.ours,
-                    shown_deviation(row), shown_band(row), row.in_band() ? "pass" : "**no**", against(row), row.source);
+    if (row.decides())
+      text += fmt::format("| {} | {:.5g} | {:.5g} | {} | {} | {} | {}: {} |\n", row.name, row.reference, row.ours,
+                          shown_deviation(row), shown_band(row), row.in_band() ? "pass" : "**no**", shown_against(row),
+                          row.source);
+    else text += fmt::format("| {} | | {:.5g} | | | note | {} |\n", row.name, row.ours, row.source);
   return text;
 }
 
@@ -66,7 +66,8 @@ constexpr std::string_view preface = R"(# Verification
 Written by `{}`, bedload {} ({}). Do not edit: run the command.
 
 Every row is a run of this program, read from its record or its last state, and held against a reference of another origin:
-*code*, the exact answer of the equations that are solved; or *experiment*, what was measured in nature. The study files are
+*code*, the exact answer of the equations that are solved; or *experiment*, what was measured in nature. A *note* is for
+information and decides nothing. The study files are
 in [studies/validation](../studies/validation); `bedload run` takes them like any other. `bedload validate [GROUP]` runs them
 in memory and prints these tables, `--quick` a part of them in three minutes on two cores. {} of {} rows are in band;
 {:.1f} core minutes.
@@ -75,11 +76,21 @@ in memory and prints these tables, `--quick` a part of them in three minutes on 
 
 }   // namespace
 
+std::string_view shown_against(const ValidationRow& row) {
+  constexpr std::string_view words[] = {"code", "experiment", "nothing"};
+  return words[static_cast<int>(row.against)];
+}
+
+std::string_view shown_verdict(const ValidationRow& row) {
+  return !row.decides() ? "note" : row.in_band() ? "pass" : "NO";
+}
+
 std::string shown_deviation(const ValidationRow& row) {
   return std::isfinite(row.deviation()) ? of_row(row, row.deviation(), true) : "none";
 }
 
 std::string shown_band(const ValidationRow& row) {
+  if (!row.decides()) return "none";
   const auto& [below, above, relative] = row.band;
   if (below == above) return of_row(row, above, false);
   if (std::isinf(below)) return fmt::format("at most {}", of_row(row, above, true));
@@ -91,8 +102,7 @@ std::vector<DocumentFile> verification_document(const std::vector<RungResult>& r
   std::size_t rows = 0, good = 0;
   double core_seconds = 0;
   for (const auto& rung : rungs) {
-    rows += rung.findings.rows.size();
-    good += static_cast<std::size_t>(std::ranges::count_if(rung.findings.rows, &ValidationRow::in_band));
+    rows += rung.findings.deciding(), good += rung.findings.in_band();
     core_seconds += rung.core_seconds;
   }
   const auto build = build_info();

@@ -10,8 +10,13 @@ namespace bedload {
 
 /// "+0.12 %" or "-0.003": how far a row is off, as its band counts.
 std::string shown_deviation(const ValidationRow&);
-/// "1 %", "0.01", "<= 3 %".
+/// "1 %", "0.01", "at most +3 %"; "none" of a note.
 std::string shown_band(const ValidationRow&);
+
+/// "code", "experiment" or "nothing".
+std::string_view shown_against(const ValidationRow&);
+/// "pass", "NO" or "note".
+std::string_view shown_verdict(const ValidationRow&);
 
 /// A file of the document, its path relative to the document's folder.
 struct DocumentFile {

@@ -51,6 +51,18 @@ TEST(ValidationRow, ShowsDeviationAndBandAlike) {
   EXPECT_EQ(shown_deviation(row(2, std::nan(""), Band::within(1))), "none");
 }
 
+TEST(ValidationRow, ThatIsANoteDecidesNothing) {
+  const Findings one{.rows = {row(1, 1, Band::within(0.1)), ValidationRow::note("time [s]", "CPU", 3)}, .figures = {}};
+  EXPECT_EQ(one.deciding(), 1u);
+  EXPECT_EQ(one.in_band(), 1u);
+  EXPECT_EQ(shown_band(one.rows[1]), "none");
+  EXPECT_EQ(shown_verdict(one.rows[1]), "note");
+  RungResult rung{.group = "contact", .study = "a", .what = "b", .findings = one, .failure = ""};
+  EXPECT_TRUE(rung.passed());
+  rung.findings.rows.erase(rung.findings.rows.begin());
+  EXPECT_FALSE(rung.passed()) << "notes alone";
+}
+
 TEST(ValidationStudies, AreEmbeddedByteByByte) {
   ASSERT_FALSE(validation_files().empty());
   for (const auto& file : validation_files()) {
@@ -82,6 +94,7 @@ TEST(ValidationGroups, AreAllOrThoseNamedInTheOrderOfTheLadder) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind, ErrorKind::usage);
+    EXPECT_NE(error.hint.find("did you mean contact?"), std::string::npos);
     EXPECT_NE(error.hint.find("contact, "), std::string::npos);
   }
 }
