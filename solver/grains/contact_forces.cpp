@@ -54,34 +54,39 @@ void fetch(std::span<const Body> bodies, const PairContacts& pairs, std::size_t 
   }
 }
 
-/// What a dry contact remembers, and what one in a liquid does: the damping chosen when it began.
+/// Damping of dry contacts, of contacts in a liquid that goes on with what was chosen when they began, and of those that
+/// begin.
 struct DryDamping {
   Damping all;
   Damping of(std::size_t, const Overlap&) const noexcept { return all; }
 };
 
-struct WetDamping {
+struct KeptDamping {
+  const HertzMindlin& law;
+  const double* __restrict alpha;   // negative: apart; whatever its damping, a pair apart has no force
+  Damping of(std::size_t k, const Overlap&) const noexcept { return law.damping(alpha[k]); }
+};
+
+struct ChosenDamping {
   const HertzMindlin& law;
   const WetRestitution& wet;
-  const double* __restrict viscous_speed;
-  double* __restrict alpha;   // negative: apart
+  const double* viscous_speed;
+  double* alpha;
 
   Damping of(std::size_t k, const Overlap& o) const noexcept {
-    const double chosen = wet.damping(viscous_speed[k], dot(o.velocity, o.normal));
-    const double kept = alpha[k] < 0 ? chosen : alpha[k];
-    alpha[k] = o.depth > 0 ? kept : -1;
-    return law.damping(kept);
+    return law.damping(alpha[k] = wet.damping(viscous_speed[k], dot(o.velocity, o.normal)));
   }
 };
 
-// Lever arms are r - depth/2: they add up to the distance, so angular momentum is kept. (G9)
+// Pairs begin..end of the block at `first`. Lever arms are r - depth/2: they add up to the distance, so angular momentum is
+// kept. (G9)
 template <class DampingOf>
 void respond(const HertzMindlin& law, const DampingOf& damping, const PeriodicBox& box, double dt,
-             const PairContacts& pairs, std::size_t first, std::size_t count, PairBlock& b, double* __restrict depth,
-             double* __restrict sx, double* __restrict sy, double* __restrict sz) noexcept {
+             const PairContacts& pairs, std::size_t first, std::size_t begin, std::size_t end, PairBlock& b,
+             double* __restrict depth, double* __restrict sx, double* __restrict sy, double* __restrict sz) noexcept {
   const double* root_radius = pairs.root_radius.data() + first;
   const double* mass = pairs.mass.data() + first;
-  for (std::size_t k = 0; k < count; ++k) {
+  for (std::size_t k = begin; k < end; ++k) {
     const Vec3 apart = box.shortest({b.dx[k], b.dy[k], b.dz[k]});
     const double distance = norm(apart);
     Overlap o;
@@ -100,6 +105,34 @@ void respond(const HertzMindlin& law, const DampingOf& damping, const PeriodicBo
     b.fx[k] = r.force.x, b.fy[k] = r.force.y, b.fz[k] = r.force.z;
     b.tx[k] = turn.x, b.ty[k] = turn.y, b.tz[k] = turn.z;
     b.arm_a[k] = arm_a, b.arm_b[k] = arm_b;
+  }
+}
+
+/// Takes out the damping of pairs apart; true if any pair touches without one.
+bool forget_damping_apart(const double* __restrict depth, double* __restrict alpha, std::size_t count) noexcept {
+  bool any_begins = false;
+  for (std::size_t k = 0; k < count; ++k) {
+    alpha[k] = depth[k] > 0 ? alpha[k] : -1;
+    any_begins |= (depth[k] > 0) & (alpha[k] < 0);
+  }
+  return any_begins;
+}
+
+// Contacts that begin are rare: all pairs are answered as if none did, and those few again with the damping they choose.
+template <class RespondWith>
+void respond_in_liquid(const HertzMindlin& law, const WetRestitution& wet, PairContacts& pairs, std::size_t first,
+                       std::size_t count, const RespondWith& respond_with) noexcept {
+  double *const alpha = pairs.damping.data() + first, *const depth = pairs.depth.data() + first;
+  double before[3][block_size];
+  double* const spring[] = {pairs.spring_x.data() + first, pairs.spring_y.data() + first,
+                            pairs.spring_z.data() + first};
+  for (int c = 0; c < 3; ++c) std::copy_n(spring[c], count, before[c]);
+  respond_with(KeptDamping{law, alpha}, 0, count);
+  if (!forget_damping_apart(depth, alpha, count)) return;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!(depth[k] > 0) || !(alpha[k] < 0)) continue;
+    for (int c = 0; c < 3; ++c) spring[c][k] = before[c][k];
+    respond_with(ChosenDamping{law, wet, pairs.viscous_speed.data() + first, alpha}, k, k + 1);
   }
 }
 
@@ -132,12 +165,12 @@ void add_pair_forces(const HertzMindlin& law, const WetRestitution* wet, const P
   for (std::size_t first = 0; first < pairs.size(); first += block_size) {
     const std::size_t count = std::min(block_size, pairs.size() - first);
     fetch(bodies, pairs, first, count, block);
-    const auto respond_with = [&](const auto& damping) {
-      respond(law, damping, box, dt, pairs, first, count, block, pairs.depth.data() + first,
+    const auto respond_with = [&](const auto& damping, std::size_t begin, std::size_t end) {
+      respond(law, damping, box, dt, pairs, first, begin, end, block, pairs.depth.data() + first,
               pairs.spring_x.data() + first, pairs.spring_y.data() + first, pairs.spring_z.data() + first);
     };
-    if (wet) respond_with(WetDamping{law, *wet, pairs.viscous_speed.data() + first, pairs.damping.data() + first});
-    else respond_with(DryDamping{law.damping()});
+    if (wet) respond_in_liquid(law, *wet, pairs, first, count, respond_with);
+    else respond_with(DryDamping{law.damping()}, 0, count);
     add_up(pairs, first, count, block, loads);
   }
 }
@@ -158,8 +191,10 @@ Vec3 add_wall_forces(const HertzMindlin& rough, const HertzMindlin& smooth, cons
     const double arm = body.radius - 0.5 * o.depth;
     o.velocity = body.velocity - wall_velocity + arm * cross(body.spin, o.normal);
     const HertzMindlin& law = wall.rough ? rough : smooth;
-    const Damping damping =
-        wet ? WetDamping{law, *wet, &contact.viscous_speed, &contact.damping}.of(0, o) : law.damping();
+    if (wet && !(o.depth > 0)) contact.damping = -1;
+    else if (wet && contact.damping < 0)
+      contact.damping = wet->damping(contact.viscous_speed, dot(o.velocity, o.normal));
+    const Damping damping = wet ? law.damping(contact.damping) : law.damping();
     const ContactForce r = law.respond(o, contact.spring, dt, damping);
     contact.spring = r.spring;
     loads[contact.grain].force += r.force;
