@@ -15,30 +15,41 @@ std::array<Image, 4> images(const StaggeredGrid& g, int direction) {
   return {{{-2, std::min(1, n - 1)}, {-1, 0}, {n, n - 1}, {n + 1, std::max(n - 2, 0)}}};
 }
 
-/// Calls visit(ghost index, home index) for every pair of planes, whole padded planes, in the order of directions given.
+/// Calls visit(ghost index, home index, length) for runs along z of pairs of ghost and home, whole padded planes, in the order
+/// of directions given.
 template <class Visit>
 void for_each_image(const StaggeredGrid& g, int place, std::array<int, 3> order, Visit&& visit) {
   constexpr int ghosts = StaggeredGrid::ghosts;
+  const std::ptrdiff_t row = g.stride(1), rows = g.stride(0) / row * (g.cells[0] + 2 * ghosts);
   for (const int c : order) {
-    const int d = c == 0 ? 1 : 0, e = c == 2 ? 1 : 2;    // the inner loop along the rows
     if (!g.periodic(c) && has_hat(place, c)) continue;   // what lies on walls is its own; grains reach none beyond
-    for (const Image& image : images(g, c)) {
-      const std::ptrdiff_t from = (image.ghost + ghosts) * g.stride(c), to = (image.home + ghosts) * g.stride(c);
-      for (int p = 0; p < g.cells[d] + 2 * ghosts; ++p)
-        for (int q = 0; q < g.cells[e] + 2 * ghosts; ++q) {
-          const std::ptrdiff_t across = p * g.stride(d) + q * g.stride(e);
-          visit(from + across, to + across);
-        }
+    const std::array<Image, 4> planes = images(g, c);
+    if (c == 2) {
+      for (std::ptrdiff_t start = ghosts; start < rows * row; start += row)
+        for (const Image& image : planes) visit(start + image.ghost, start + image.home, 1);
+      continue;
     }
+    for (const Image& image : planes)
+      for (int p = 0; p < g.cells[1 - c] + 2 * ghosts; ++p) {
+        const std::ptrdiff_t across = p * g.stride(1 - c);
+        visit((image.ghost + ghosts) * g.stride(c) + across, (image.home + ghosts) * g.stride(c) + across, row);
+      }
   }
 }
 
 void extend(const StaggeredGrid& g, int place, double* f) {
-  for_each_image(g, place, {0, 1, 2}, [f](std::ptrdiff_t ghost, std::ptrdiff_t home) { f[ghost] = f[home]; });
+  for_each_image(g, place, {0, 1, 2}, [f](std::ptrdiff_t ghost, std::ptrdiff_t home, std::ptrdiff_t length) {
+    const double* __restrict from = f + home;
+    double* __restrict to = f + ghost;
+    for (std::ptrdiff_t k = 0; k < length; ++k) to[k] = from[k];
+  });
 }
 void fold(const StaggeredGrid& g, int place, double* f) {
-  for_each_image(g, place, {2, 1, 0},
-                 [f](std::ptrdiff_t ghost, std::ptrdiff_t home) { f[home] += f[ghost], f[ghost] = 0; });
+  for_each_image(g, place, {2, 1, 0}, [f](std::ptrdiff_t ghost, std::ptrdiff_t home, std::ptrdiff_t length) {
+    double* __restrict from = f + ghost;
+    double* __restrict to = f + home;
+    for (std::ptrdiff_t k = 0; k < length; ++k) to[k] += from[k], from[k] = 0;
+  });
 }
 
 }   // namespace

@@ -13,13 +13,35 @@ void for_each_edge_row(const StaggeredGrid& g, int t, Body&& body) {
     for (int j = 0; j < g.cells[1] + (t != 1); ++j) body(g.index(i, j, 0), g.cells[2] + (t != 2));
 }
 
-/// Adds factor curl^T e: on faces normal to c, de_{c+2}/dx_{c+1} - de_{c+1}/dx_{c+2} of an edge field.
-void add_curl_transposed(const StaggeredGrid& g, const FaceFields& e, double factor, FaceFields& out) {
+/// Writes weight(t, row)[k] curl u on the edges of the lowest `planes` planes along z.
+template <class Weight>
+void weigh_vorticity(const StaggeredGrid& g, const FaceFields& velocity, int planes, Weight&& weight,
+                     FaceFields& on_edges) {
+  for (int t = 0; t < 3; ++t) {
+    const int a = (t + 1) % 3, b = (t + 2) % 3;
+    const std::ptrdiff_t sa = g.stride(a), sb = g.stride(b);
+    const double ka = 1 / g.h[a], kb = 1 / g.h[b];
+    for_each_edge_row(g, t, [&](std::size_t row, int whole) {
+      const int length = std::min(whole, planes);
+      const auto w = weight(t, row);
+      const double* __restrict ua = velocity.component(a) + row;
+      const double* __restrict ub = velocity.component(b) + row;
+      double* __restrict e = on_edges.component(t) + row;
+      for (int k = 0; k < length; ++k) e[k] = w[k] * (ka * (ub[k] - ub[k - sa]) - kb * (ua[k] - ua[k - sb]));
+    });
+  }
+}
+
+/// Adds factor curl^T e: on faces normal to c, de_{c+2}/dx_{c+1} - de_{c+1}/dx_{c+2} of an edge field, up to the plane `reach`
+/// along z from which on e is zero.
+void add_curl_transposed(const StaggeredGrid& g, const FaceFields& e, int reach, double factor, FaceFields& out) {
   for (int c = 0; c < 3; ++c) {
     const int a = (c + 1) % 3, b = (c + 2) % 3;
     const std::ptrdiff_t sa = g.stride(a), sb = g.stride(b);
     const double ka = factor / g.h[a], kb = factor / g.h[b];
-    for_each_face_row(g, c, [&](std::size_t row, int length) {
+    const int below = reach - (c == 2 ? g.first_face(2) : 0);
+    for_each_face_row(g, c, [&](std::size_t row, int whole) {
+      const int length = std::min(whole, below);
       const double* __restrict ea = e.component(a) + row;
       const double* __restrict eb = e.component(b) + row;
       double* __restrict y = out.component(c) + row;
@@ -31,17 +53,11 @@ void add_curl_transposed(const StaggeredGrid& g, const FaceFields& e, double fac
 }   // namespace
 
 void find_vorticity(const StaggeredGrid& g, const FaceFields& velocity, FaceFields& on_edges) {
-  for (int t = 0; t < 3; ++t) {
-    const int a = (t + 1) % 3, b = (t + 2) % 3;
-    const std::ptrdiff_t sa = g.stride(a), sb = g.stride(b);
-    const double ka = 1 / g.h[a], kb = 1 / g.h[b];
-    for_each_edge_row(g, t, [&](std::size_t row, int length) {
-      const double* __restrict ua = velocity.component(a) + row;
-      const double* __restrict ub = velocity.component(b) + row;
-      double* __restrict e = on_edges.component(t) + row;
-      for (int k = 0; k < length; ++k) e[k] = ka * (ub[k] - ub[k - sa]) - kb * (ua[k] - ua[k - sb]);
-    });
-  }
+  struct One {
+    double operator[](int) const { return 1; }
+  };
+  weigh_vorticity(
+      g, velocity, g.cells[2] + 1, [](int, std::size_t) { return One{}; }, on_edges);
 }
 
 SpinExchange::SpinExchange(const StaggeredGrid& g) : grid_(g), strength_(g), target_(g), turn_(g) {}
@@ -79,27 +95,38 @@ void SpinExchange::prepare(std::span<const Stencil> stencils, std::span<const Ve
     weigh_walls(*f);
     fill_face_ghosts(grid_, *f);
   }
+  reach_ = planes_reached();
 }
 
-void SpinExchange::add_impulse(const FaceFields& vorticity, FaceFields& impulse) const {
-  FaceFields couple(grid_);
+/// Planes of edges along z from the bottom up to the last that any grain reaches: most of a channel is clear of them.
+int SpinExchange::planes_reached() const {
+  int reach = 0;
   for (int t = 0; t < 3; ++t)
     for_each_edge_row(grid_, t, [&](std::size_t row, int length) {
-      for (std::size_t n = row; n < row + length; ++n)
-        couple.component(t)[n] = 0.5 * strength_.component(t)[n] * vorticity.component(t)[n] - target_.component(t)[n];
+      const double* c = strength_.component(t) + row;
+      while (length > reach && c[length - 1] == 0) --length;
+      reach = std::max(reach, length);
     });
-  add_curl_transposed(grid_, couple, -0.5, impulse);
+  return reach;
 }
 
-void SpinExchange::add_image(const FaceFields& x, FaceFields& out) {
-  find_vorticity(grid_, x, turn_);
+void SpinExchange::add_impulse(const FaceFields& vorticity, FaceFields& impulse) {
   for (int t = 0; t < 3; ++t)
     for_each_edge_row(grid_, t, [&](std::size_t row, int length) {
-      double* __restrict e = turn_.component(t) + row;
       const double* __restrict c = strength_.component(t) + row;
-      for (int k = 0; k < length; ++k) e[k] *= c[k];
+      const double* __restrict s = target_.component(t) + row;
+      const double* __restrict w = vorticity.component(t) + row;
+      double* __restrict couple = turn_.component(t) + row;
+      for (int k = 0; k < length; ++k) couple[k] = 0.5 * c[k] * w[k] - s[k];
     });
-  add_curl_transposed(grid_, turn_, 0.25, out);
+  add_curl_transposed(grid_, turn_, grid_.cells[2], -0.5, impulse);
+}
+
+// Faces of the last plane reached read the edges of the next one, too.
+void SpinExchange::add_image(const FaceFields& x, FaceFields& out) {
+  weigh_vorticity(
+      grid_, x, reach_ + 1, [&](int t, std::size_t row) { return strength_.component(t) + row; }, turn_);
+  add_curl_transposed(grid_, turn_, reach_, 0.25, out);
 }
 
 void SpinExchange::add_diagonal(FaceFields& out) const {

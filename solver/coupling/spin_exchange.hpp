@@ -26,7 +26,7 @@ class SpinExchange {
   void prepare(std::span<const Stencil>, std::span<const Vec3> strength, std::span<const Vec3> target,
                const KernelSmoothing& = {});
   /// impulse -= curl^T (C curl u^n/2 - S)/2, the couples if u* were u^n; `vorticity` on edges as from find_vorticity.
-  void add_impulse(const FaceFields& vorticity, FaceFields& impulse) const;
+  void add_impulse(const FaceFields& vorticity, FaceFields& impulse);
   /// out += curl^T C curl x/4 on unknown faces; x has a ghost layer as of a velocity.
   void add_image(const FaceFields& x, FaceFields& out);
   /// out += the diagonal of that operator.
@@ -39,9 +39,11 @@ class SpinExchange {
 
  private:
   void weigh_walls(FaceFields& on_edges) const;
+  int planes_reached() const;
 
   StaggeredGrid grid_;
   FaceFields strength_, target_, turn_;   // C = sum w c' T/V_c, S = sum w c' T omega_t/V_c, scratch; on edges
+  int reach_ = 0;                         // C = 0 on edges from this plane along z on
 };
 
 /// curl u on every edge, those on walls and in the first ghost layer round a period included; `velocity` has its ghosts filled.
