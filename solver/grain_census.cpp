@@ -17,7 +17,7 @@ constexpr double neighbourhood = 2;     // radius around a grain in which others
 constexpr double packed_around = 0.2;   // packing of others, by that measure, at grains that lie on each other
 constexpr double packed = 0.5;          // packing at which grains that float cannot pass each other
 constexpr double sparse =
-    0.2;                        // expected depth in diameters below which settled grains are no bed: a fifth of a layer
+    0.2;   // expected depth in diameters below which settled grains are no bed: a fifth of a layer
 
 /// What two spheres have in common [m3]; `far` apart, the larger first.
 double common_volume(double large, double small, double far) {
