@@ -72,4 +72,29 @@ TinyScene suspension() {
   return {"suspension", scene};
 }
 
+TinyScene every_term() {
+  Scene scene = poured_bed(90, {8, 6, 9}, {4, 3, 12});
+  scene.bed.sides[1] = Side::wall;
+  Terms& terms = scene.terms;
+  terms.self_disturbance = terms.added_mass = terms.shear_lift = terms.magnus = terms.viscous_torque = true;
+  terms.wall_forces = terms.wet_restitution = terms.exposure = terms.turbulence = true;
+  add_ramp(scene, FlowRamp::Kind::lid, {0.1, 1.5}, 30);
+  return {"every_term", scene};
+}
+
+TinyScene taken_again() {
+  Scene scene = poured_bed(0, {8, 6, 8}, {4, 3, 8});
+  scene.bed.source = {.kind = BedSource::Kind::file, .count = 2, .csv = "x,y,z,diameter,density,fixed\n"};
+  for (int n = 0; n < 2; ++n)
+    scene.bed.source.csv +=
+        fmt::format("{},{},{},{},2000,0\n", diameter, (2 + 2 * n) * diameter, (3 + 2 * n) * diameter, diameter);
+  add_ramp(scene, FlowRamp::Kind::none, {0, 0}, 20);
+  scene.drive.kind = FlowRamp::Kind::push, scene.drive.quantity = FlowRamp::Quantity::push;
+  scene.drive.levels = {1000, 10};
+  scene.record.tracks = {0, 1};
+  scene.bed.grains.rolling_friction = 0.1;
+  validate(scene);
+  return {"taken_again", scene};
+}
+
 }   // namespace bedload::test

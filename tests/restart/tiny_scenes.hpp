@@ -22,6 +22,15 @@ TinyScene stream_on_a_slope();
 /// Grains of a table, two of them fixed, sinking in a box without walls.
 TinyScene suspension();
 
-inline std::vector<TinyScene> tiny_scenes() { return {lid_driven(), stream_on_a_slope(), suspension()}; }
+/// The lid's bed with all terms that go together, between side walls.
+TinyScene every_term();
+
+/// Two grains at rest under a push of a thousand times their weight: no limit foresees how far the first step takes them, it
+/// is undone and taken again shorter.
+TinyScene taken_again();
+
+inline std::vector<TinyScene> tiny_scenes() {
+  return {lid_driven(), stream_on_a_slope(), suspension(), every_term(), taken_again()};
+}
 
 }   // namespace bedload::test
