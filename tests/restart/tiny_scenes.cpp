@@ -75,6 +75,7 @@ TinyScene suspension() {
 TinyScene every_term() {
   Scene scene = poured_bed(90, {8, 6, 9}, {4, 3, 12});
   scene.bed.sides[1] = Side::wall;
+  scene.bed.grains.rolling_friction = 0.1;
   Terms& terms = scene.terms;
   terms.self_disturbance = terms.added_mass = terms.shear_lift = terms.magnus = terms.viscous_torque = true;
   terms.wall_forces = terms.wet_restitution = terms.exposure = terms.turbulence = true;
@@ -92,7 +93,6 @@ TinyScene taken_again() {
   scene.drive.kind = FlowRamp::Kind::push, scene.drive.quantity = FlowRamp::Quantity::push;
   scene.drive.levels = {1000, 10};
   scene.record.tracks = {0, 1};
-  scene.bed.grains.rolling_friction = 0.1;
   validate(scene);
   return {"taken_again", scene};
 }
