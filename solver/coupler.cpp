@@ -142,8 +142,9 @@ struct Coupler::Parts {
   FlowAtGrains flow;
   Sheltering sheltering;
   std::vector<Vec3> exchange, relaxation, ballistic, flow_velocity, push, moved, drag_force;
-  // Only where the terms need them: C_A V_p of every grain [m3], what the fluid gets of it.
-  std::vector<double> added_volume;
+  // Only where the terms need them.
+  std::vector<double> added_volume, carried_mass;   // C_A V_p [m3]; the liquid that a contact force moves too [kg]
+  std::vector<Vec3> contact_before;                 // mean contact force that the drag solve has met [N]
   FaceFields added_exchange, reaction;
   std::optional<SpinExchange> spin_exchange;
   FaceFields vorticity, vorticity_change;   // on edges [1/s]
@@ -182,7 +183,9 @@ struct Coupler::Parts {
   void book_torques(const Grains&, double dt);
   void book_drive_of_fluid(const State&);
   void book_drive_of_grains(const State&, double dt);
+  void find_carried_mass(const Grains&);
   void move_grains(State&, double dt);
+  void carry_liquid(State&, double dt);
   void deposit_at_new_positions(const State&, double dt);
   void transport_momentum(State&, double dt);
   void project(State&, double dt);
@@ -216,6 +219,7 @@ StepHealth Coupler::step(State& state, double longest) {
   parts.move_grains(state, dt);
   parts.deposit_at_new_positions(state, dt);
   parts.transport_momentum(state, dt);
+  parts.carry_liquid(state, dt);
   parts.project(state, dt);
   ++state.clock.step;
   state.clock.time += dt;
@@ -457,6 +461,24 @@ void Coupler::Parts::react_on_fluid(const State& state, double dt) {
   }
 }
 
+/// Of a grain's added mass, what a contact force moves with it: the liquid at its faces goes along by the part A/(eps + A),
+/// A = sum w m_a/V_c as in the drag solve, and does not where a wall holds it; the mean of the three directions. With the
+/// whole of m_a, in a bed several times the liquid there is, liquid would overtake the grains that push it.
+void Coupler::Parts::find_carried_mass(const Grains& grains) {
+  FaceFields& along = added_exchange;
+  for (int c = 0; c < 3; ++c)
+    for_each_unknown_face(
+        grid, c, [a = along.component(c), eps = before.face.component(c)](std::size_t n) { a[n] /= eps[n] + a[n]; });
+  clear_walls(grid, along);
+  const FaceFields& read = smoothing.seen(grid, along, seen);
+  const Strides stride(grid);
+  carried_mass.resize(grains.size());
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const Vec3 part = sample(stencils[p], stride, read);
+    carried_mass[p] = scene.bed.fluid.density * added_volume[p] * (1 - (part.x + part.y + part.z) / 3);
+  }
+}
+
 /// The one implicit solve of the step for all that fluid and grains exchange; leaves the grains' constant push.
 void Coupler::Parts::solve_drag(State& state, double dt) {
   Stopwatch watch(times.drag);
@@ -464,6 +486,7 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
   predict_grains(state, dt);
   if (spin_exchange) predict_spins(state, dt);
   find_impulse(state, dt);
+  if (scene.terms.added_mass) find_carried_mass(state.grains);
   const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
   const double largest = nu + (turbulence ? turbulence->largest() : 0);
   const bool implicit = largest * dt > explicit_viscosity_limit * shortest_edge * shortest_edge;
@@ -534,6 +557,9 @@ void Coupler::Parts::book_exchange(const State& state, double dt) {
     if (explicit_forces()) on_grains += flow.force[p];
     if (grains.fixed[p]) continue;
     push[p] += force / mass;
+    // In the sub-steps contacts meet the grain with its liquid; the solve has already met the mean of the last step's.
+    if (scene.terms.added_mass)
+      push[p] += (1 / (rho * mass) - 1 / (rho * mass + carried_mass[p])) * grains.mean_contact_force[p];
   }
   books.on_grains = rho * on_grains;
 }
@@ -568,8 +594,10 @@ void Coupler::Parts::move_grains(State& state, double dt) {
   Grains& grains = state.grains;
   moved.assign(grains.size(), {});
   if (health.substeps == 0) return;
-  const GrainHealth contact = dynamics.advance(grains, state.contacts, {.push = push, .spin_push = spin_push},
-                                               dt / health.substeps, health.substeps, state.search.lid_speed);
+  if (scene.terms.added_mass) contact_before = grains.mean_contact_force;
+  const GrainHealth contact =
+      dynamics.advance(grains, state.contacts, {.push = push, .spin_push = spin_push, .added_mass = carried_mass},
+                       dt / health.substeps, health.substeps, state.search.lid_speed);
   health.deepest_overlap = contact.deepest_overlap;
   books.contact_on_walls = contact.force_on_walls;
   const Vec3 length = scene.bed.length;
@@ -612,6 +640,31 @@ void Coupler::Parts::transport_momentum(State& state, double dt) {
   transport(grid, flux, before.face, after.face, dt, carried, state.fluid.velocity, transport_scratch);
   std::swap(before, after);
   positions = state.grains.position;
+}
+
+/// Contact forces that the drag solve did not know of have moved grains with their liquid: the liquid's part of the impulse
+/// is the fluid's.
+void Coupler::Parts::carry_liquid(State& state, double dt) {
+  if (!scene.terms.added_mass || health.substeps == 0 || failed()) return;
+  const Grains& grains = state.grains;
+  const Strides stride(grid);
+  const double rho = scene.bed.fluid.density;
+  clear(reaction);
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    if (grains.fixed[p]) continue;
+    const double part = carried_mass[p] / (rho * specific_mass(grains, p) + carried_mass[p]);
+    const Vec3 on_liquid = part * (grains.mean_contact_force[p] - contact_before[p]);
+    deposit(stencils[p], stride, dt / (rho * grid.cell_volume()) * on_liquid, reaction);
+    books.on_grains -= on_liquid;
+  }
+  fold_deposits(grid, reaction);
+  smoothing.spread(reaction);
+  for (int c = 0; c < 3; ++c) {
+    double* u = state.fluid.velocity.component(c);
+    for_each_unknown_face(grid, c, [&, r = reaction.component(c), eps = before.face.component(c)](std::size_t n) {
+      u[n] += r[n] / eps[n];
+    });
+  }
 }
 
 /// Makes div(eps u + J) vanish at the new instant: fluid and mobile grains give way to the pressure together.
