@@ -1,0 +1,89 @@
+// Forces that the solve has found, into the push of the grains and the books of momentum and energy.
+#include "solver/coupler_parts.hpp"
+
+#include "solver/fluid/face_loops.hpp"
+
+namespace bedload {
+
+/// The lid's work on the fluid and G's, whose force moves with the mean of u^n and u*.
+void Coupler::Parts::book_drive_of_fluid(const State& state) {
+  books.driving_power = -books.on_lid.x * state.search.lid_speed;
+  const Vec3 g = drive(state);
+  for (int c = 0; c < 3; ++c) {
+    if (g[c] == 0) continue;
+    const double *eps = before.face.component(c), *u = state.fluid.velocity.component(c), *old = carried.component(c);
+    books.driving_power += scene.bed.fluid.density * grid.cell_volume() * g[c] *
+                           sum_over_faces(grid, c, [=, whole = model_b()](std::size_t n) {
+                             return (whole ? 1 : eps[n]) * 0.5 * (u[n] + old[n]);
+                           });
+  }
+}
+
+/// Weight's and G's work on the grains over the way they went.
+void Coupler::Parts::book_drive_of_grains(const State& state, double dt) {
+  const Grains& grains = state.grains;
+  const double rho = scene.bed.fluid.density;
+  double work = 0;
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    if (grains.fixed[p]) continue;
+    Vec3 force = grains.density[p] * weight(grains.density[p]);
+    force.x += state.search.push * norm(force);
+    if (!model_b()) force += rho * drive(state);
+    work += sphere_volume(grains.diameter[p]) * dot(force, moved[p]);
+  }
+  books.driving_power += work / dt;
+}
+
+/// The forces that the solve has found, into the grains' push and the books.
+void Coupler::Parts::book_exchange(const State& state, double dt) {
+  const Grains& grains = state.grains;
+  const double rho = scene.bed.fluid.density;
+  Vec3 on_grains;
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const Vec3 a = relaxation[p], difference = flow_velocity[p] - ballistic[p];
+    const Vec3 slip{difference.x / (1 + a.x), difference.y / (1 + a.y), difference.z / (1 + a.z)};   // u* - v'
+    Vec3 force = scaled(flow.drag[p], slip);                                                         // per rho_f
+    drag_force[p] = rho * force;
+    books.exchange_loss += rho * dot(force, slip);
+    const double mass = specific_mass(grains, p);
+    if (scene.terms.added_mass) {
+      const Vec3 velocity = grains.fixed[p] ? Vec3{} : grains.velocity[p];
+      force += added_volume[p] / dt * (slip - (flow.velocity[p] - velocity));
+    }
+    on_grains += force;
+    if (!model_b()) on_grains += sphere_volume(grains.diameter[p]) * flow.acceleration[p];
+    if (explicit_forces()) on_grains += flow.force[p];
+    if (grains.fixed[p]) continue;
+    push[p] += force / mass;
+    // In the sub-steps contacts meet the grain with its liquid; the solve has already met the mean of the last step's.
+    if (scene.terms.added_mass)
+      push[p] += (1 / (rho * mass) - 1 / (rho * mass + carried_mass[p])) * grains.mean_contact_force[p];
+  }
+  books.on_grains = rho * on_grains;
+}
+
+/// The torques that the solve has found, into the grains' spin and what the couples leave on walls into the books.
+void Coupler::Parts::book_torques(const Grains& grains, double dt) {
+  const double rho = scene.bed.fluid.density;
+  find_vorticity(grid, drag.change(), vorticity_change);
+  for (int t = 0; t < 3; ++t) {
+    double* w = vorticity.component(t);
+    for (std::size_t n = 0; n < vorticity.x.values.size(); ++n) w[n] += vorticity_change.component(t)[n];
+  }
+  const FaceFields& turning = smoothing.edges_seen(grid, vorticity, seen);
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const Vec3 turn = 0.5 * sample_edges(stencils[p], Strides(grid), turning);
+    torque[p] = scaled(rho * spin_strength[p] / dt, turn - spin_target[p]);
+    Vec3 slip = turn - spin_start[p];
+    if (!grains.fixed[p]) {
+      const double d = grains.diameter[p];
+      spin_push[p] = torque[p] / sphere_inertia(grains.density[p] * sphere_volume(d), d);
+      slip -= dt * spin_push[p];
+    }
+    books.exchange_loss += dot(torque[p], slip);
+  }
+  const auto walls = spin_exchange->on_walls(vorticity);
+  books.on_bottom += rho / dt * walls.bottom, books.on_lid += rho / dt * walls.top;
+}
+
+}   // namespace bedload

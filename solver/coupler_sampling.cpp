@@ -1,0 +1,95 @@
+// What the step starts from: grains on the grid, accelerations on faces, the flow at the grains.
+#include "solver/coupler_parts.hpp"
+
+#include "solver/fluid/boundaries.hpp"
+#include "solver/fluid/face_loops.hpp"
+#include "solver/fluid/operators.hpp"
+#include "solver/fluid/rows.hpp"
+
+namespace bedload {
+
+/// Void fraction and stencils of x^n; those of the last step serve when nothing has moved since.
+void Coupler::Parts::place_on_grid(const Grains& grains) {
+  Stopwatch watch(times.deposit);
+  if (positions == grains.position && diameters == grains.diameter) return;
+  find_stencils(grid, grains, stencils);
+  deposit_void_fraction(grid, grains, stencils, before, smoothing);
+  fill_face_ghosts(grid, before.face);
+  positions = grains.position;
+  diameters = grains.diameter;
+}
+
+/// a_f = -grad q + nu lap u + G, and the volume flux eps u + J of the start of the step.
+void Coupler::Parts::accelerate_faces(State& state) {
+  Stopwatch watch(times.transport);
+  FaceFields& u = state.fluid.velocity;
+  fill_velocity_ghosts(grid, u, state.search.lid_speed);
+  carried = u;
+  fill_centre_ghosts(grid, state.fluid.pressure);
+  gradient(grid, state.fluid.pressure, acceleration);
+  laplacian(grid, u, laplace);
+  deposit_solid_flux(grid, state.grains, stencils, flux, smoothing);
+  const double nu = scene.bed.fluid.viscosity;
+  for (int c = 0; c < 3; ++c) {
+    double *a = acceleration.component(c), *f = flux.component(c);
+    const double *lap = laplace.component(c), *eps = before.face.component(c), *v = u.component(c);
+    const double g = drive(state)[c];
+    for_each_unknown_face(grid, c, [&](std::size_t n) {
+      a[n] = -a[n] + nu * lap[n] + g;
+      f[n] += eps[n] * v[n];
+    });
+  }
+  if (turbulence) {   // a bed is as rough as its grains are large
+    const double z_b = state.search.bed_height;
+    turbulence->find(u, state.search.lid_speed, z_b, z_b > 0 ? scene.bed.grains.diameter : scene.bottom_roughness);
+    turbulence->add_force(u, 1, acceleration);
+  }
+  clear_walls(grid, acceleration);
+  fill_face_ghosts(grid, flux);
+  divergence(grid, flux, rhs);
+  double largest = 0;   // per time; choose_step makes it per step
+  for_each_cell_row(grid, [&](std::size_t row, int length) {
+    for (std::size_t n = row; n < row + length; ++n) largest = std::max(largest, std::abs(rhs[n]));
+  });
+  health.divergence_left = largest;
+  book_wall_shear(u);
+  const double rho = scene.bed.fluid.density;
+  const Vec3 box = grid.length();
+  books.driving = rho * box.x * box.y * box.z * drive(state);
+}
+
+/// What bottom and lid take of a flow, or of its change, through viscosity and turbulence.
+void Coupler::Parts::book_wall_shear(const FaceFields& velocity) {
+  const double rho = scene.bed.fluid.density;
+  const auto add = [&](const WallShear& shear) {
+    books.on_bottom += rho * shear.bottom, books.on_lid += rho * shear.top;
+  };
+  add(wall_shear(grid, velocity, scene.bed.fluid.viscosity));
+  if (turbulence) add(turbulence->wall_shear(velocity));
+}
+
+/// What grains see of an acceleration that fluid and grains share: on overfilled faces, the part that is left to them.
+FaceFields& Coupler::Parts::on_grains(FaceFields& all) {
+  if (before.overfilled.empty()) return all;
+  shared = all;
+  for (const OverfilledFace& f : before.overfilled) shared.component(f.direction)[f.face] *= f.grain_share;
+  return shared;
+}
+
+void Coupler::Parts::sample_at_grains(State& state) {
+  Stopwatch watch(times.sample);
+  sample_flow(grid, state.grains, stencils, state.fluid.velocity, on_grains(acceleration), before.centre, law,
+              scene.bed.fluid.viscosity, scene.terms, flow, smoothing);
+  health.void_clamps = flow.void_clamps;
+  health.disturbance_clamps = flow.disturbance_clamps;
+  if (!wants_vorticity()) return;
+  find_vorticity(grid, carried, vorticity);
+  const FaceFields& turning = smoothing.edges_seen(grid, vorticity, seen);
+  flow.vorticity.resize(stencils.size());
+  for (std::size_t p = 0; p < stencils.size(); ++p)
+    flow.vorticity[p] = sample_edges(stencils[p], Strides(grid), turning);
+  add_explicit_forces({grid, PeriodicBox(scene.bed), scene.bed.fluid.viscosity, state.search.lid_speed}, state.grains,
+                      scene.terms, sheltering, flow);
+}
+
+}   // namespace bedload
