@@ -65,7 +65,21 @@ FaceFields face_void_fraction(const Scene& scene, const State& state) {
   return eps.face;
 }
 
-Vec3 total_momentum(const Scene& scene, const State& state) {
+Grains random_grains(const StaggeredGrid& g, std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  Grains grains;
+  grains.resize(count);
+  for (std::size_t p = 0; p < count; ++p) {
+    for (int c = 0; c < 3; ++c)
+      grains.position[p][c] = g.length()[c] * unit(random), grains.velocity[p][c] = unit(random) - 0.5;
+    grains.diameter[p] = 3e-4 * (1 + 0.2 * unit(random));
+    grains.density[p] = 2650;
+  }
+  return grains;
+}
+
+Vec3 fluid_momentum(const Scene& scene, const State& state) {
   const FaceFields eps = face_void_fraction(scene, state);
   Vec3 sum;
   for (int c = 0; c < 3; ++c)
@@ -73,6 +87,11 @@ Vec3 total_momentum(const Scene& scene, const State& state) {
              sum_over_faces(
                  scene.grid, c,
                  [e = eps.component(c), u = state.fluid.velocity.component(c)](std::size_t n) { return e[n] * u[n]; });
+  return sum;
+}
+
+Vec3 total_momentum(const Scene& scene, const State& state) {
+  Vec3 sum = fluid_momentum(scene, state);
   for (std::size_t p = 0; p < state.grains.size(); ++p)
     sum += state.grains.density[p] * sphere_volume(state.grains.diameter[p]) * state.grains.velocity[p];
   return sum;

@@ -29,6 +29,12 @@ std::vector<Vec3> cubic_places(std::array<int, 3> count, Vec3 low, Vec3 high, do
 /// eps on the faces for the grains where they are now.
 FaceFields face_void_fraction(const Scene&, const State&);
 
+/// Grains all over the box, 0.3 mm and up to a fifth more, of 2650 kg/m3, at random velocities of up to 0.5 m/s.
+Grains random_grains(const StaggeredGrid&, std::size_t count, unsigned seed);
+
+/// Momentum of the fluid [kg m/s].
+Vec3 fluid_momentum(const Scene&, const State&);
+
 /// Total momentum of fluid and grains [kg m/s].
 Vec3 total_momentum(const Scene&, const State&);
 

@@ -48,19 +48,6 @@ void fill(FaceFields& f, unsigned seed, double low = -1) {
     for (std::size_t n = 0; n < f.x.values.size(); ++n) f.component(c)[n] = number(random);
 }
 
-Grains random_grains(const StaggeredGrid& g, std::size_t count) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> unit(0, 1);
-  Grains grains;
-  grains.resize(count);
-  for (std::size_t p = 0; p < count; ++p) {
-    for (int c = 0; c < 3; ++c)
-      grains.position[p][c] = g.length()[c] * unit(random), grains.velocity[p][c] = unit(random) - 0.5;
-    grains.diameter[p] = 3e-4 * (1 + 0.2 * unit(random)), grains.density[p] = 2650;
-  }
-  return grains;
-}
-
 class SmoothedKernel : public testing::TestWithParam<std::array<Side, 3>> {};
 INSTANTIATE_TEST_SUITE_P(Smoothing, SmoothedKernel, testing::Values(periodic_box, channel, closed_box));
 
@@ -155,7 +142,7 @@ TEST_P(SmoothedKernel, CommutesWithTheDivergence) {
 TEST_P(SmoothedKernel, VoidFractionChangesOnlyByTheSweptFlux) {
   const StaggeredGrid g = grid_with(GetParam());
   const KernelSmoothing smoothing(g, widths);
-  Grains grains = random_grains(g, 200);
+  Grains grains = random_grains(g, 200, 5);
   std::vector<Stencil> stencils;
   VoidFraction before(g), after(g);
   find_stencils(g, grains, stencils);
@@ -185,7 +172,7 @@ TEST_P(SmoothedKernel, VoidFractionChangesOnlyByTheSweptFlux) {
 TEST_P(SmoothedKernel, GivesTheFacesOfALineWhatItGivesItsCells) {
   // What the transport of momentum needs: of every line along c, walls' faces with their half control volumes included.
   const StaggeredGrid g = grid_with(GetParam());
-  const Grains grains = random_grains(g, 100);
+  const Grains grains = random_grains(g, 100, 5);
   std::vector<Stencil> stencils;
   find_stencils(g, grains, stencils);
   VoidFraction eps(g);
@@ -206,7 +193,7 @@ TEST_P(SmoothedKernel, GivesTheFacesOfALineWhatItGivesItsCells) {
 TEST_P(SmoothedKernel, ALoneGrainSeesNoOthers) {
   const StaggeredGrid g = grid_with(GetParam());
   const KernelSmoothing smoothing(g, widths);
-  for (Grains grains = random_grains(g, 20); grains.size() > 0; grains.resize(grains.size() - 1)) {
+  for (Grains grains = random_grains(g, 20, 5); grains.size() > 0; grains.resize(grains.size() - 1)) {
     Grains one;
     one.resize(1);
     one.position[0] = grains.position.back(), one.diameter[0] = 1e-3;

@@ -8,8 +8,9 @@
 #include "solver/fluid/boundaries.hpp"
 #include "solver/fluid/face_loops.hpp"
 #include "solver/fluid/operators.hpp"
+#include "tests/support/scenes.hpp"
 
-namespace bedload {
+namespace bedload::test {
 namespace {
 
 StaggeredGrid grid_with(std::array<Side, 3> sides) {
@@ -18,20 +19,6 @@ StaggeredGrid grid_with(std::array<Side, 3> sides) {
   g.h = {2e-3, 1.5e-3, 0.5e-3};
   g.sides = sides;
   return g;
-}
-
-Grains random_grains(const StaggeredGrid& g, std::size_t count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> unit(0, 1);
-  Grains grains;
-  grains.resize(count);
-  for (std::size_t p = 0; p < count; ++p) {
-    for (int c = 0; c < 3; ++c)
-      grains.position[p][c] = g.length()[c] * unit(random), grains.velocity[p][c] = unit(random) - 0.5;
-    grains.diameter[p] = 3e-4 * (1 + 0.2 * unit(random));
-    grains.density[p] = 2650;
-  }
-  return grains;
 }
 
 const std::array<Side, 3> open = {Side::periodic, Side::periodic, Side::periodic};
@@ -206,4 +193,4 @@ TEST(VoidFraction, OfAnOverfilledFaceIsWhatSpheresLeaveAndItsGrainsShareTheRest)
 }
 
 }   // namespace
-}   // namespace bedload
+}   // namespace bedload::test
