@@ -92,7 +92,7 @@ void sample_flow(const StaggeredGrid& grid, const Grains& grains, std::span<cons
     flow.acceleration[p] = sample(stencils[p], stride, a);
     flow.void_fraction[p] = sample<on_cells>(stencils[p], stride, eps.data());
   }
-  if (n > 0 && (terms.drag || terms.wall_forces))
+  if (n > 0 && (terms.drag || terms.wall_forces || terms.added_mass))
     find_packing(grid, grains, eps, flow.void_fraction, flow.packing, smoothing);
   if (!terms.drag) return;
   if (terms.self_disturbance) flow.removed.assign(n, {});

@@ -10,6 +10,8 @@ double own_share(const StaggeredGrid& grid, const KernelSmoothing& smoothing, in
   const double s = x / grid.h[direction];
   const int cell = cell_of(s, n);
   const auto weights = quadratic_spline(s - cell - 0.5);
+  if (const bool folded = n < 3 || (!grid.periodic(direction) && (cell == 0 || cell == n - 1)); !folded && !smoothing)
+    return weights[0] * weights[0] + weights[1] * weights[1] + weights[2] * weights[2];
   const auto home = [&](int i) { return grid.periodic(direction) ? (i + n) % n : std::clamp(i, 0, n - 1); };
   double sum = 0;
   for (int a = 0; a < 3; ++a)
@@ -35,20 +37,25 @@ std::vector<double> plane_means(const StaggeredGrid& grid, const Field<Centre>& 
 
 }   // namespace
 
-double own_packing(const StaggeredGrid& grid, Vec3 x, double diameter, const KernelSmoothing& smoothing) {
-  return sphere_volume(diameter) / grid.cell_volume() * own_share(grid, smoothing, 0, x.x) *
-         own_share(grid, smoothing, 1, x.y) * own_share(grid, smoothing, 2, x.z);
+void find_own_packing(const StaggeredGrid& grid, const Grains& grains, std::vector<double>& own,
+                      const KernelSmoothing& smoothing) {
+  own.resize(grains.size());
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const Vec3& x = grains.position[p];
+    own[p] = sphere_volume(grains.diameter[p]) / grid.cell_volume() * own_share(grid, smoothing, 0, x.x) *
+             own_share(grid, smoothing, 1, x.y) * own_share(grid, smoothing, 2, x.z);
+  }
 }
 
 void find_packing(const StaggeredGrid& grid, const Grains& grains, const Field<Centre>& void_fraction,
                   std::span<const double> sampled, GrainPacking& packing, const KernelSmoothing& smoothing) {
-  packing.own.resize(grains.size()), packing.others.resize(grains.size());
+  find_own_packing(grid, grains, packing.own, smoothing);
+  packing.others.resize(grains.size());
   const std::vector<double> means = plane_means(grid, void_fraction);
   for (std::size_t p = 0; p < grains.size(); ++p) {
     const Vec3& x = grains.position[p];
     const double volume = sphere_volume(grains.diameter[p]) / grid.cell_volume(),
                  along = own_share(grid, smoothing, 2, x.z);
-    packing.own[p] = own_packing(grid, x, grains.diameter[p], smoothing);
     const double s = x.z / grid.h.z;
     const int k = cell_of(s, grid.cells[2]);
     const auto w = quadratic_spline(s - k - 0.5);

@@ -17,9 +17,10 @@ std::vector<double> coefficients(const Scene& scene, const State& state, bool mo
   VoidFraction eps(scene.grid);
   deposit_void_fraction(scene.grid, state.grains, stencils, eps);
   extend_samples(scene.grid, eps.centre);
-  std::vector<double> sampled, added;
+  std::vector<double> sampled, own, added;
   for (const Stencil& s : stencils) sampled.push_back(sample<on_cells>(s, Strides(scene.grid), eps.centre.data()));
-  find_added_mass(scene.grid, state.grains, sampled, model_b, added);
+  find_own_packing(scene.grid, state.grains, own);
+  find_added_mass(state.grains, sampled, own, model_b, added);
   for (std::size_t p = 0; p < added.size(); ++p) added[p] /= sphere_volume(state.grains.diameter[p]);
   return added;
 }
