@@ -90,7 +90,8 @@ struct ConservationBooks::Parts {
   VoidFraction eps;
   FaceFields flux, flow, seen_flow;
   Field<Centre> seen_eps;
-  std::vector<double> void_fraction, own, added;
+  std::vector<double> void_fraction, added;
+  GrainPacking packing;
 
   Books worst;
   std::vector<double> diameter, density;   // of the first state
@@ -166,8 +167,8 @@ double ConservationBooks::Parts::of_added_mass(const State& state) {
   void_fraction.resize(grains.size());
   for (std::size_t p = 0; p < grains.size(); ++p)
     void_fraction[p] = sample<on_cells>(stencils[p], stride, packed.data());
-  find_own_packing(grid, grains, own, smoothing);
-  find_added_mass(grains, void_fraction, own, scene.terms.model_b(), added);
+  find_packing(grid, grains, packed, void_fraction, packing, smoothing);
+  find_added_mass(grains, void_fraction, packing, scene.terms.model_b(), added);
   double sum = 0;
   for (std::size_t p = 0; p < grains.size(); ++p)
     sum += added[p] / 2 * norm2(sample(stencils[p], stride, read) - grains.velocity[p]);

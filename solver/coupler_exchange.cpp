@@ -25,7 +25,7 @@ void Coupler::Parts::predict_grains(const State& state, double dt) {
   const std::size_t count = grains.size();
   exchange.resize(count), relaxation.resize(count), ballistic.resize(count), flow_velocity.resize(count),
       push.resize(count), drag_force.resize(count);
-  if (scene.terms.added_mass) find_added_mass(grains, flow.void_fraction, flow.packing.own, model_b(), added_volume);
+  if (scene.terms.added_mass) find_added_mass(grains, flow.void_fraction, flow.packing, model_b(), added_volume);
   for (std::size_t p = 0; p < count; ++p) {
     Vec3 impulse_per_slip = flow.drag[p] * dt;
     if (scene.terms.added_mass) impulse_per_slip += added_volume[p] * Vec3{1, 1, 1};

@@ -21,7 +21,9 @@ bool all_finite(const State& state) {
          ++v)
       finite &= std::isfinite(*v);
   for (const double q : state.fluid.pressure.values) finite &= std::isfinite(q);
-  for (const Vec3& v : state.grains.velocity) finite &= std::isfinite(norm2(v));
+  const Grains& g = state.grains;
+  for (const auto* each : {&g.velocity, &g.spin, &g.mean_contact_force, &g.mean_contact_torque})
+    for (const Vec3& v : *each) finite &= std::isfinite(norm2(v));
   return finite;
 }
 

@@ -12,10 +12,9 @@ namespace bedload {
 /// fill the share phi of space (Zuber 1964, Chem. Eng. Sci. 19, 897).
 constexpr double added_mass_coefficient(double packing) noexcept { return 0.5 * (1 + 2 * packing) / (1 - packing); }
 
-/// C_A V_p of every grain, by id [m3] (added mass per fluid density), with phi that of the *other* grains at it: a lone
-/// grain has 1/2 whatever the cells. `own` is the packing density that each reads of its own volume. phi is at most 1 - 0.26,
-/// as in the drag laws. Divided by eps in Model B, as drag is.
-void find_added_mass(const Grains&, std::span<const double> void_fraction, std::span<const double> own, bool model_b,
+/// C_A V_p of every grain, by id [m3] (added mass per fluid density), with phi as in the drag law: what the grain reads, less its own volume
+/// as far as it is a lone one, which has 1/2 whatever the cells. phi is at most 1 - 0.26. Divided by eps in Model B, as drag is.
+void find_added_mass(const Grains&, std::span<const double> void_fraction, const GrainPacking&, bool model_b,
                      std::vector<double>& added);
 
 }   // namespace bedload

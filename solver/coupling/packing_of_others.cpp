@@ -37,25 +37,15 @@ std::vector<double> plane_means(const StaggeredGrid& grid, const Field<Centre>& 
 
 }   // namespace
 
-void find_own_packing(const StaggeredGrid& grid, const Grains& grains, std::vector<double>& own,
-                      const KernelSmoothing& smoothing) {
-  own.resize(grains.size());
-  for (std::size_t p = 0; p < grains.size(); ++p) {
-    const Vec3& x = grains.position[p];
-    own[p] = sphere_volume(grains.diameter[p]) / grid.cell_volume() * own_share(grid, smoothing, 0, x.x) *
-             own_share(grid, smoothing, 1, x.y) * own_share(grid, smoothing, 2, x.z);
-  }
-}
-
 void find_packing(const StaggeredGrid& grid, const Grains& grains, const Field<Centre>& void_fraction,
                   std::span<const double> sampled, GrainPacking& packing, const KernelSmoothing& smoothing) {
-  find_own_packing(grid, grains, packing.own, smoothing);
-  packing.others.resize(grains.size());
+  packing.own.resize(grains.size()), packing.others.resize(grains.size());
   const std::vector<double> means = plane_means(grid, void_fraction);
   for (std::size_t p = 0; p < grains.size(); ++p) {
     const Vec3& x = grains.position[p];
     const double volume = sphere_volume(grains.diameter[p]) / grid.cell_volume(),
                  along = own_share(grid, smoothing, 2, x.z);
+    packing.own[p] = volume * own_share(grid, smoothing, 0, x.x) * own_share(grid, smoothing, 1, x.y) * along;
     const double s = x.z / grid.h.z;
     const int k = cell_of(s, grid.cells[2]);
     const auto w = quadratic_spline(s - k - 0.5);

@@ -15,9 +15,6 @@ struct GrainPacking {
       others;   // the larger of what it samples of all others, and of their mean over the planes at its height
 };
 
-/// What each grain reads of its own volume as packing density, by id.
-void find_own_packing(const StaggeredGrid&, const Grains&, std::vector<double>& own, const KernelSmoothing& = {});
-
 /// `void_fraction` as grains read it, its ghosts extended; `sampled` the void fraction at each grain.
 void find_packing(const StaggeredGrid&, const Grains&, const Field<Centre>& void_fraction,
                   std::span<const double> sampled, GrainPacking&, const KernelSmoothing& = {});

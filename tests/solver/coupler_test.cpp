@@ -93,6 +93,9 @@ TEST(FluidStep, FailsWhenAnyComponentIsNotANumber) {
     grain.state.fluid.velocity.component(c)[grain.scene.grid.index(0, 0, 0)] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(grain.step().finite) << c;
   }
+  LoneGrain grain(1e-6);
+  grain.state.grains.spin[0].y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(grain.step().finite);
 }
 
 TEST(RestingGrain, FeelsNoDragSinceItsContactBearsItsWeight) {
