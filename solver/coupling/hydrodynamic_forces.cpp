@@ -43,8 +43,9 @@ Vec3 drag_without_own_flow(const Coefficient& coefficient, const SelfDisturbance
       const double k = own_share(beta, own.drag[c], own.unevenness[c], gain[c], viscosity);
       clamped |= k > largest_own_share;
       gain[c] = (1 - lone * volume * own.displacement[c]) / (1 - lone * std::min(k, largest_own_share));
-      drag[c] = beta * gain[c] / (1 + (model_b ? 0 : lone * volume * own.stress[c]));
-      removed[c] = 1 - beta / drag[c];
+      const double stress = model_b ? 0 : lone * volume * own.stress[c];
+      drag[c] = beta * gain[c] / (1 + stress);
+      removed[c] = 1 - (1 + stress) / gain[c];   // of beta = 0 too
     }
     slip = scaled(sampled, gain);
   }

@@ -1,6 +1,8 @@
 // The terms beside drag, on whole sets of grains: which terms act where, and that they add up as written.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "solver/coupling/explicit_forces.hpp"
@@ -145,6 +147,39 @@ TEST(ExplicitForces, ExposureAddsDragAlongTheFlowToGrainsThatStandOut) {
   const double beta = 3 * pi * nu * d;
   EXPECT_NEAR(channel.flow.force[16].x, beta * 0.5 * d * 10 * exposed_moment(1 - std::sqrt(2)), 1e-9 * beta * d * 10);
   EXPECT_EQ(channel.flow.force[5].x, 0);   // one of the four
+}
+
+/// All that can act at once besides drag.
+Terms every_term() {
+  Terms terms;
+  terms.self_disturbance = terms.added_mass = terms.shear_lift = terms.magnus = terms.viscous_torque = true;
+  terms.wall_forces = terms.exposure = true;
+  return terms;
+}
+
+TEST(ExplicitForces, AGrainThatGoesAlongWithTheFluidFeelsNothingUnderAnyLaw) {
+  // Ergun's drag vanishes with the slip of a lone grain: nothing may be divided by it.
+  Channel channel({{5 * h, 5 * h, 0.5 * d}, {5 * h, 5 * h, 6 * h}});   // at a wall, and far from any
+  FaceFields velocity(channel.grid), acceleration(channel.grid);
+  Field<Centre> eps(channel.grid, 1);
+  for (const DragLawName name : drag_law_names)
+    for (const bool model_b : {false, true})
+      for (const double vorticity : {0.0, 10.0}) {
+        SCOPED_TRACE(fmt::format("{}, Model {}, vorticity {}", name_of(name), model_b ? 'B' : 'A', vorticity));
+        Terms terms = every_term();
+        terms.pressure_gradient = terms.viscous_stress = !model_b;
+        sample_flow(channel.grid, channel.grains, channel.stencils, velocity, acceleration, eps, drag_law(name), nu,
+                    terms, channel.flow);
+        channel.flow.vorticity.assign(2, {0, vorticity, 0});
+        channel.add(terms);
+        for (std::size_t p = 0; p < 2; ++p) {
+          EXPECT_EQ(channel.flow.force[p], Vec3{});
+          for (int c = 0; c < 3; ++c) {
+            EXPECT_TRUE(std::isfinite(channel.flow.drag[p][c]) && channel.flow.drag[p][c] >= 0) << p << " along " << c;
+            EXPECT_TRUE(std::isfinite(channel.flow.removed[p][c])) << p << " along " << c;
+          }
+        }
+      }
 }
 
 }   // namespace
