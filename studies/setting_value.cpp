@@ -96,7 +96,7 @@ Value ValueReader::word() const {
                 nearest.empty() ? alternatives : fmt::format("did you mean \"{}\"? It is {}", nearest, alternatives));
 }
 
-/// Sorted, each once: the order in which terms are named has no meaning.
+/// Sorted: the order in which terms are named has no meaning.
 Value ValueReader::words() const {
   if (is_text() && node.text == "auto") return node.text;
   if (!node.is(StudyNode::Kind::list))
@@ -106,10 +106,15 @@ Value ValueReader::words() const {
     const auto its_name = indexed(name, n + 1);
     const auto one = ValueReader{key, its_name, node.items[n], problems}.word();
     if (!one) return std::nullopt;
-    read.push_back(std::get<std::string>(*one));
+    const auto& word = std::get<std::string>(*one);
+    if (std::ranges::find(read, word) != read.end()) {
+      problems.add(node.items[n].place, fmt::format("{}: \"{}\" stands twice in this list", its_name, word),
+                   "remove one");
+      return std::nullopt;
+    }
+    read.push_back(word);
   }
   std::ranges::sort(read);
-  read.erase(std::unique(read.begin(), read.end()), read.end());
   return read;
 }
 

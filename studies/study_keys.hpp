@@ -37,7 +37,7 @@ bool is_table(std::string_view path);
 /// Why a key that is not of this version is refused; empty for a key that nobody knows.
 std::string_view later_key(std::string_view path);
 
-/// The known key nearest to a misspelt one, by edit distance; empty if none is near.
+/// The known key nearest to a misspelt one, by edit distance whatever the case; empty if none is near.
 std::string_view nearest_key(std::string_view path);
 /// The same among words parted by '|'.
 std::string_view nearest_word(std::string_view word, std::string_view choices);

@@ -95,6 +95,10 @@ TEST_F(BadInput, TermWithoutWhatItNeeds) {
   expect_refused(tiny_study + "[models]\nterms = [\"shear_lift\"]\n", 65, "drag is left out\nhint: add \"drag\"");
   expect_refused(with(tiny_study, "width = \"6 d\"", "width = \"6 d\"\nroughness = \"1 mm\""), 65, "box.roughness");
 }
+TEST_F(BadInput, TermNamedTwice) {
+  expect_refused(tiny_study + "[models]\nterms = [\"drag\", \"drag\"]\n", 65,
+                 "tiny.toml:29:18: error: models.terms[2]: \"drag\" stands twice in this list\nhint: remove one");
+}
 TEST_F(BadInput, UnknownTermOrLaw) {
   expect_refused(tiny_study + "[models]\nterms = [\"drag\", \"shear_lft\"]\n", 65,
                  "models.terms[2]: \"shear_lft\" is not known\nhint: did you mean \"shear_lift\"?");
@@ -184,6 +188,7 @@ TEST_F(BadInput, MistakesOnTheCommandLineComeWithAHint) {
   EXPECT_TRUE(says(option.err, "error: "));
   EXPECT_TRUE(says(option.err, "--fast"));
   EXPECT_TRUE(says(option.err, "hint: `bedload run --help`"));
+  EXPECT_TRUE(says(bedload(here(), {"RUN", "tiny.toml"}).err, "hint: did you mean `bedload run`?"));
   const auto cores = bedload(here(), {"run", "tiny.toml", "--cores", "0"});
   EXPECT_EQ(cores.code, 2);
   EXPECT_TRUE(says(cores.err, "error: --cores: 0 is not a number of workers"));

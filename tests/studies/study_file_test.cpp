@@ -34,6 +34,17 @@ TEST(StudyFile, SuggestsTheNearestWord) {
                    "did you mean \"lid\"? It is one of lid, pressure, push, through_flow, none"));
 }
 
+TEST(StudyFile, SuggestsWhatDiffersInCaseOnly) {
+  const auto said = [](const std::string& models) {
+    return complaint(with(good_study, "[drive]", models + "[drive]"));
+  };
+  EXPECT_TRUE(says(said("[models]\ndrag = \"TANG\"\n"), "did you mean \"tang\"?"));
+  EXPECT_TRUE(says(said("[models]\ndrag = \"Di_Felice\"\n"), "did you mean \"di_felice\"?"));
+  EXPECT_TRUE(says(said("[models]\nterms = [\"drag\", \"MAGNUS\"]\n"), "did you mean \"magnus\"?"));
+  EXPECT_TRUE(
+      says(said("[MODELS]\ndrag = \"tang\"\n"), "MODELS is not a key of a study file\nhint: did you mean models?"));
+}
+
 TEST(StudyFile, ReportsAllProblemsAtOnceInOrderOfPlace) {
   const auto said = complaint(with(with(good_study, "\"25 td\"", "25"), "\"1000 kg/m3\"", "\"1000 kg\""));
   const auto density = said.find("study.toml:5:11: error: fluid.density"),
@@ -97,6 +108,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"[drive]", "[models]\nfluid = \"column\"\n[drive]", "models.fluid: \"column\" is not in this version"},
         Refusal{"[drive]", "[models]\nterms = [\"drag\", \"viscous_torqe\"]\n[drive]",
                 "did you mean \"viscous_torque\"?"},
+        Refusal{"[drive]", "[models]\nterms = [\"drag\", \"buoyancy\", \"drag\"]\n[drive]",
+                "study.toml:23:30: error: models.terms[3]: \"drag\" stands twice in this list\nhint: remove one"},
         Refusal{"[drive]", "[models]\nterms = [\"drag\", \"viscous_stress\"]\n[drive]", "both or neither"},
         Refusal{"[drive]", "[models]\nterms = [\"drag\", \"wet_restitution\", \"lubrication\"]\n[drive]",
                 "study.toml:23:9: error: models.terms: wet_restitution and lubrication are both the film"},
