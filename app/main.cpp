@@ -129,7 +129,7 @@ void CommandLine::result_commands() {
                       "bedload explain shields.toml d0.5mm-rho2000-s1", [this] { return explain_command(study_); });
   study_argument(explain);
   forms(explain, false);
-  explain->add_option("CASE", study_.cases, "id prefix, label, or glob of labels")->required();
+  explain->add_option("CASE", study_.cases, "id prefix, label, or glob of labels (default: the only case)");
 
   auto* curve = add("curve", "the threshold curve beside published ones",
                     "bedload curve shields.toml --csv > curve.csv", [this] { return curve_command(study_); });

@@ -8,6 +8,7 @@
 
 #include "app/commands.hpp"
 #include "app/tables.hpp"
+#include "base/error.hpp"
 #include "base/log.hpp"
 #include "scheduler/bed_sharing.hpp"
 #include "scheduler/progress.hpp"
@@ -156,6 +157,15 @@ std::vector<CaseEntry> all_entries(const std::vector<Case>& cases, const std::ve
   return entries;
 }
 
+/// The words by which cases are named; without a word, the id of the only case.
+std::vector<std::string> names_of_cases(const StudyOptions& options, const std::vector<Case>& cases,
+                                        const std::vector<CaseEntry>& entries) {
+  if (!options.cases.empty()) return options.cases;
+  if (cases.size() == 1) return {cases.front().id};
+  throw Error(ErrorKind::usage, fmt::format("{} has {} cases, and none is named", options.study, cases.size()),
+              fmt::format("bedload explain {} CASE; {}", options.study, naming_of_cases(entries)));
+}
+
 }   // namespace
 
 int plan_command(const StudyOptions& options) {
@@ -176,8 +186,9 @@ int plan_command(const StudyOptions& options) {
 int explain_command(const StudyOptions& options) {
   const auto place = find_study(options.study, options.out);
   const auto cases = unfold(read_study(place.file));
-  for (const auto& word : options.cases)
-    for (const auto& entry : matching_cases(all_entries(cases, known_cases(place.directory)), word))
+  const auto entries = all_entries(cases, known_cases(place.directory));
+  for (const auto& word : names_of_cases(options, cases, entries))
+    for (const auto& entry : matching_cases(entries, word))
       (options.form == Form::json ? explain_as_json : explain_one)(entry, cases, place.directory);
   return 0;
 }

@@ -46,12 +46,22 @@ std::vector<CaseEntry> matching_cases(const std::vector<CaseEntry>& entries, con
     const bool by_id = word.size() >= 4 && entry.id.starts_with(word);
     if (!entry.is_bed && (by_id || fnmatch(word.c_str(), entry.label.c_str(), 0) == 0)) found.push_back(entry);
   }
-  if (!found.empty()) return found;
+  if (found.empty())
+    throw Error(ErrorKind::not_found, fmt::format("no case is named {}", word), naming_of_cases(entries));
+  return found;
+}
+
+std::string naming_of_cases(const std::vector<CaseEntry>& entries) {
   std::string some;
-  for (const auto& entry : entries)
-    if (!entry.is_bed && some.size() < 80) some += fmt::format("{}{}", some.empty() ? "" : ", ", entry.label);
-  throw Error(ErrorKind::not_found, fmt::format("no case is named {}", word),
-              fmt::format("cases are {}; a glob such as \"d0.5mm-*\" or an id prefix works too", some));
+  for (const auto& entry : entries) {
+    if (entry.is_bed) continue;
+    if (some.size() >= 80) {
+      some += ", ... (`bedload plan` lists all)";
+      break;
+    }
+    some += fmt::format("{}{}", some.empty() ? "" : ", ", entry.label);
+  }
+  return fmt::format("cases are {}; a glob such as \"d0.5mm-*\" or an id prefix works too", some);
 }
 
 void link_labels(const fs::path& results, const std::vector<Case>& cases) {

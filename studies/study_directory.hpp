@@ -32,6 +32,9 @@ Database open_results(const StudyPlace&);
 /// labels in the hint, if it names none.
 std::vector<CaseEntry> matching_cases(const std::vector<CaseEntry>&, const std::string& word);
 
+/// What a command line may name: the first labels, and how several are named at once.
+std::string naming_of_cases(const std::vector<CaseEntry>&);
+
 /// by-label/<label> -> ../cases/<id>, for every case; others are removed.
 void link_labels(const std::filesystem::path& results, const std::vector<Case>&);
 

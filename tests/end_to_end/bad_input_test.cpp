@@ -194,6 +194,17 @@ TEST_F(BadInput, MistakesOnTheCommandLineComeWithAHint) {
   EXPECT_TRUE(says(cores.err, "error: --cores: 0 is not a number of workers"));
 }
 
+TEST_F(BadInput, NoCaseToExplainWhereThereAreSeveral) {
+  std::ofstream(here() / "tiny.toml") << tiny_study;
+  const auto refused = bedload(here(), {"explain", "tiny.toml"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_TRUE(says(refused.err,
+                   "error: tiny.toml has 4 cases, and none is named\n"
+                   "hint: bedload explain tiny.toml CASE; cases are d0.5mm-rho2000-s1, d0.5mm-rho3000-s1, "
+                   "d0.6mm-rho2000-s1, d0.6mm-rho3000-s1; a glob such as"));
+}
+
 TEST_F(BadInput, NewStudyWhoseNameCannotBeADirectory) {
   for (const char* name : {"my study", "a/b", ".toml", "", ".hidden", "a\"b"}) {
     const auto outcome = bedload(here(), {"new", name});

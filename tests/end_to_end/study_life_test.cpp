@@ -182,6 +182,14 @@ TEST_F(StudyLife, ExplainsACase) {
   EXPECT_EQ(bedload(here(), {"explain", "tiny.toml", "rho9"}).code, 66);
 }
 
+TEST_F(StudyLife, ExplainsTheOnlyCaseUnnamed) {
+  std::ofstream(here() / "tiny.toml") << small_study;
+  const auto unnamed = bedload(here(), {"explain", "tiny.toml"});
+  EXPECT_EQ(unnamed.code, 0) << unnamed.err;
+  EXPECT_NE(unnamed.out.find("Galileo number"), std::string::npos) << unnamed.out;
+  EXPECT_EQ(unnamed.out, bedload(here(), {"explain", "tiny.toml", "rho3000-s1"}).out);
+}
+
 TEST_F(StudyLife, WritesAReport) {
   ASSERT_EQ(run(small_study).code, 0);
   EXPECT_NE(contents(here() / "tiny" / "report.html").find("<svg"), std::string::npos);
