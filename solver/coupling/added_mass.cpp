@@ -1,9 +1,11 @@
 #include "solver/coupling/added_mass.hpp"
 
+#include "solver/coupling/drag_laws.hpp"
+
 namespace bedload {
 namespace {
 
-constexpr double densest = 1 - 0.26;   // packing density above which the drag laws' void fraction is clamped
+constexpr double densest = 1 - least_void;
 
 }   // namespace
 

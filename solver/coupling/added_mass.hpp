@@ -13,7 +13,7 @@ namespace bedload {
 constexpr double added_mass_coefficient(double packing) noexcept { return 0.5 * (1 + 2 * packing) / (1 - packing); }
 
 /// C_A V_p of every grain, by id [m3] (added mass per fluid density), with phi as in the drag law: what the grain reads, less its own volume
-/// as far as it is a lone one, which has 1/2 whatever the cells. phi is at most 1 - 0.26. Divided by eps in Model B, as drag is.
+/// as far as it is a lone one, which has 1/2 whatever the cells. phi is at most 1 - least_void. Divided by eps in Model B, as drag is.
 void find_added_mass(const Grains&, std::span<const double> void_fraction, const GrainPacking&, bool model_b,
                      std::vector<double>& added);
 

@@ -15,6 +15,9 @@ struct DragRange {
   double lowest_void, highest_void, highest_re;
 };
 
+/// No drag law means anything below close packing of equal spheres: void fractions at grains are kept at or above this.
+inline constexpr double least_void = 0.26;
+
 /// A law for a lone sphere leaves out what neighbours do: less than 2 % at packing densities below this.
 inline constexpr double lone_sphere_void = 0.995;
 

@@ -95,7 +95,7 @@ void add_explicit_forces(const Surroundings& around, const Grains& grains, const
     }
     if (terms.shear_lift) lift += (1 - (there ? there->share : 0)) * saffman_mei(slip, vorticity, d, nu);
     if (terms.magnus) lift += magnus(slip, grains.spin[p] - 0.5 * vorticity, d, nu);
-    if (terms.model_b()) lift = lift / std::clamp(flow.void_fraction[p], 0.26, 1.0);
+    if (terms.model_b()) lift = lift / std::clamp(flow.void_fraction[p], least_void, 1.0);
     const Vec3 beta = flow.drag[p];
     flow.force[p] += scaled(applied, lift_force(slip, lift, std::min({beta.x, beta.y, beta.z})));
     if (terms.exposure) flow.force[p] += scaled(beta, exposure_velocity(level[p], d, vorticity));

@@ -5,9 +5,7 @@
 namespace bedload {
 namespace {
 
-constexpr double least_void = 0.26;   // below close packing of equal spheres no drag law means anything
-
-constexpr double largest_own_share = 0.7;   // of the slip: errors of the tables grow as 1/(1 - k)
+constexpr double largest_removed = 0.7;   // of the slip: errors of the tables grow as 1/(1 - k)
 
 /// beta/rho_f = 3 pi nu d F eps of one grain; without the eps in Model B.
 template <class Law>
@@ -18,7 +16,7 @@ double drag_coefficient(const Law& law, double diameter, double eps, double slip
 
 /// Share k of the slip that the own drag takes away, beta r/nu, less what the drag solve takes from it by handing beta to each
 /// face at the face's own velocity: there the flow is made even. `applied`: the coefficient that the solve gets, per beta.
-double own_share(double beta, double response, double unevenness, double applied, double viscosity) {
+double slip_taken(double beta, double response, double unevenness, double applied, double viscosity) {
   constexpr double narrow = 0.4;   // response of that unevenness to itself, per k: 0.25 to 0.43 where it matters
   const double k = beta * response / viscosity;
   return k - k * k * unevenness * applied / (1 + narrow * k * applied);
@@ -40,9 +38,9 @@ Vec3 drag_without_own_flow(const Coefficient& coefficient, const SelfDisturbance
     const OwnFlow own = disturbance.at(position, slip + (sampled - slip) / 3, viscosity);
     clamped = false;
     for (int c = 0; c < 3; ++c) {
-      const double k = own_share(beta, own.drag[c], own.unevenness[c], gain[c], viscosity);
-      clamped |= k > largest_own_share;
-      gain[c] = (1 - lone * volume * own.displacement[c]) / (1 - lone * std::min(k, largest_own_share));
+      const double k = slip_taken(beta, own.drag[c], own.unevenness[c], gain[c], viscosity);
+      clamped |= k > largest_removed;
+      gain[c] = (1 - lone * volume * own.displacement[c]) / (1 - lone * std::min(k, largest_removed));
       const double stress = model_b ? 0 : lone * volume * own.stress[c];
       drag[c] = beta * gain[c] / (1 + stress);
       removed[c] = 1 - (1 + stress) / gain[c];   // of beta = 0 too

@@ -29,7 +29,7 @@ struct FlowAtGrains {
     FaceFields velocity, acceleration;
     Field<Centre> void_fraction;
   } seen;                                 // what grains read of the fields; only with a smoothing
-  std::uint64_t void_clamps = 0;          // grains whose void fraction lay below 0.26
+  std::uint64_t void_clamps = 0;          // grains whose void fraction lay below least_void
   std::uint64_t disturbance_clamps = 0;   // grains whose own flow was clamped at 0.7 of the slip
 };
 

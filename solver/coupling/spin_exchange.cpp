@@ -6,13 +6,6 @@
 namespace bedload {
 namespace {
 
-/// Rows of edges along t, the planes 0 and n of the other directions included: body(first index, length).
-template <class Body>
-void for_each_edge_row(const StaggeredGrid& g, int t, Body&& body) {
-  for (int i = 0; i < g.cells[0] + (t != 0); ++i)
-    for (int j = 0; j < g.cells[1] + (t != 1); ++j) body(g.index(i, j, 0), g.cells[2] + (t != 2));
-}
-
 /// Writes weight(t, row)[k] curl u on the edges of the lowest `planes` planes along z.
 template <class Weight>
 void weigh_vorticity(const StaggeredGrid& g, const FaceFields& velocity, int planes, Weight&& weight,
@@ -21,7 +14,7 @@ void weigh_vorticity(const StaggeredGrid& g, const FaceFields& velocity, int pla
     const int a = (t + 1) % 3, b = (t + 2) % 3;
     const std::ptrdiff_t sa = g.stride(a), sb = g.stride(b);
     const double ka = 1 / g.h[a], kb = 1 / g.h[b];
-    for_each_edge_row(g, t, [&](std::size_t row, int whole) {
+    for_each_edge_row(g, t, [&](std::size_t row, int whole, int, int) {
       const int length = std::min(whole, planes);
       const auto w = weight(t, row);
       const double* __restrict ua = velocity.component(a) + row;
@@ -102,7 +95,7 @@ void SpinExchange::prepare(std::span<const Stencil> stencils, std::span<const Ve
 int SpinExchange::planes_reached() const {
   int reach = 0;
   for (int t = 0; t < 3; ++t)
-    for_each_edge_row(grid_, t, [&](std::size_t row, int length) {
+    for_each_edge_row(grid_, t, [&](std::size_t row, int length, int, int) {
       const double* c = strength_.component(t) + row;
       while (length > reach && c[length - 1] == 0) --length;
       reach = std::max(reach, length);
@@ -112,7 +105,7 @@ int SpinExchange::planes_reached() const {
 
 void SpinExchange::add_impulse(const FaceFields& vorticity, FaceFields& impulse) {
   for (int t = 0; t < 3; ++t)
-    for_each_edge_row(grid_, t, [&](std::size_t row, int length) {
+    for_each_edge_row(grid_, t, [&](std::size_t row, int length, int, int) {
       const double* __restrict c = strength_.component(t) + row;
       const double* __restrict s = target_.component(t) + row;
       const double* __restrict w = vorticity.component(t) + row;

@@ -20,6 +20,14 @@ void for_each_face_row(const StaggeredGrid& g, int c, Body&& body) {
     for (int j = c == 1 ? g.first_face(1) : 0; j < g.cells[1]; ++j) body(g.index(i, j, k), g.cells[2] - k);
 }
 
+/// Visits every row of edges along t as body(first index, length, i, j), the planes 0 and n of the other directions included:
+/// edges on a seam are visited on both of its sides.
+template <class Body>
+void for_each_edge_row(const StaggeredGrid& g, int t, Body&& body) {
+  for (int i = 0; i < g.cells[0] + (t != 0); ++i)
+    for (int j = 0; j < g.cells[1] + (t != 1); ++j) body(g.index(i, j, 0), g.cells[2] + (t != 2), i, j);
+}
+
 /// A sum kept in eight lanes by position in the row: vectorises, and gives the same bits whatever the vector width.
 class LaneSum {
  public:

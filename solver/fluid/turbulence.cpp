@@ -17,14 +17,6 @@ struct Across {
 };
 constexpr Across across(int t) { return {(t + 1) % 3, (t + 2) % 3}; }
 
-/// Visits every row of edges along t, those on walls too, as body(first index, length, i, j).
-template <class Body>
-void for_each_edge_row(const StaggeredGrid& g, int t, Body&& body) {
-  const auto count = [&](int c) { return g.cells[c] + (c != t && !g.periodic(c) ? 1 : 0); };
-  for (int i = 0; i < count(0); ++i)
-    for (int j = 0; j < count(1); ++j) body(g.index(i, j, 0), count(2), i, j);
-}
-
 double mean_of_four(const double* f, std::ptrdiff_t a, std::ptrdiff_t b) noexcept {
   return 0.25 * ((f[0] + f[a]) + (f[b] + f[a + b]));
 }
