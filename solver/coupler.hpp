@@ -41,7 +41,7 @@ struct StepBooks {
   Vec3 driving;            // G on the fluid (and on grains, Model A), x and y
   Vec3 contact_on_walls;   // of grains on walls
   /// Energy [W], means over the step. What drives: lid and G (that of the step's start) on the fluid, weight, push and, in
-  /// Model A, G on grains. What drag and viscous torque take from the motion of both phases: never negative.
+  /// Model A, G on grains. What drag and viscous torque take from the motion of both phases: below zero at most near walls.
   double driving_power = 0, exchange_loss = 0;
 };
 
