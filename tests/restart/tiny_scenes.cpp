@@ -61,15 +61,38 @@ TinyScene stream_on_a_slope() {
 
 TinyScene suspension() {
   Scene scene = poured_bed(0, {8, 6, 8}, {4, 3, 8});
+  scene.bed.fluid.viscosity = 2e-6;
+  scene.bed.grains.density = 3000;
   scene.bed.sides = {Side::periodic, Side::periodic, Side::periodic};
   scene.bed.source = {.kind = BedSource::Kind::file, .count = 64, .csv = "x,y,z,diameter,density,fixed\n"};
   for (int n = 0; n < 64; ++n) {   // in rows closer along x than wide, the first of them fixed
     const double x = 1.2 * (n % 4) + 0.3, y = 1.5 * (n / 4 % 4) + 0.2 * (n % 3), z = 2 * (n / 16) + 0.4 * (n % 2);
     scene.bed.source.csv +=
-        fmt::format("{},{},{},{},2000,{}\n", x * diameter, y * diameter, z * diameter, diameter, int(n < 2));
+        fmt::format("{},{},{},{},3000,{}\n", x * diameter, y * diameter, z * diameter, diameter, int(n < 2));
   }
   add_ramp(scene, FlowRamp::Kind::none, {0, 0}, 40);
+  scene.steps.fluid_interval *= 2;   // beyond a tenth of the grain time
   return {"suspension", scene};
+}
+
+TinyScene syrup_through_a_layer() {
+  Scene scene = poured_bed(0, {7, 5, 6}, {3, 4, 17});
+  scene.bed.fluid.viscosity = 1e-2;
+  scene.bed.sides = {Side::periodic, Side::periodic, Side::periodic};
+  scene.bed.source = {.kind = BedSource::Kind::file, .count = 36, .csv = "x,y,z,diameter,density,fixed\n"};
+  scene.drag = DragLawName::stokes;
+  scene.terms.self_disturbance = true;
+  const auto add = [&](double x, double y, double z, int fixed) {
+    scene.bed.source.csv +=
+        fmt::format("{},{},{},{},2000,{}\n", x * diameter, y * diameter, z * diameter, diameter, fixed);
+  };
+  for (int n = 0; n < 35; ++n) add(n % 7 + 0.3, n / 7 + 0.4, 1.1, 1);
+  add(14.0 / 3, 2.5, 4, 0);   // on an edge, where its own flow is fastest
+  add_ramp(scene, FlowRamp::Kind::none, {1e-3, -2e-3}, 3);
+  scene.drive.kind = FlowRamp::Kind::through_flow, scene.drive.quantity = FlowRamp::Quantity::through_flow;
+  scene.record.tracks = {35};
+  validate(scene);
+  return {"syrup", scene};
 }
 
 TinyScene every_term() {
@@ -79,7 +102,7 @@ TinyScene every_term() {
   Terms& terms = scene.terms;
   terms.self_disturbance = terms.added_mass = terms.shear_lift = terms.magnus = terms.viscous_torque = true;
   terms.wall_forces = terms.wet_restitution = terms.exposure = terms.turbulence = true;
-  add_ramp(scene, FlowRamp::Kind::lid, {0.1, 1.5}, 30);
+  add_ramp(scene, FlowRamp::Kind::lid, {0.1, 1.5}, 12);
   return {"every_term", scene};
 }
 
@@ -89,7 +112,7 @@ TinyScene taken_again() {
   for (int n = 0; n < 2; ++n)
     scene.bed.source.csv +=
         fmt::format("{},{},{},{},2000,0\n", diameter, (2 + 2 * n) * diameter, (3 + 2 * n) * diameter, diameter);
-  add_ramp(scene, FlowRamp::Kind::none, {0, 0}, 20);
+  add_ramp(scene, FlowRamp::Kind::none, {0, 0}, 8);
   scene.drive.kind = FlowRamp::Kind::push, scene.drive.quantity = FlowRamp::Quantity::push;
   scene.drive.levels = {1000, 10};
   scene.record.tracks = {0, 1};

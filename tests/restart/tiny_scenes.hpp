@@ -22,6 +22,10 @@ TinyScene stream_on_a_slope();
 /// Grains of a table, two of them fixed, sinking in a box without walls.
 TinyScene suspension();
 
+/// A syrup pressed up and down through a layer of fixed grains that overfills its flat cells, past one free grain that feels
+/// little but its own flow: what is rare elsewhere is counted here.
+TinyScene syrup_through_a_layer();
+
 /// The lid's bed with all terms that go together, between side walls.
 TinyScene every_term();
 
@@ -30,7 +34,7 @@ TinyScene every_term();
 TinyScene taken_again();
 
 inline std::vector<TinyScene> tiny_scenes() {
-  return {lid_driven(), stream_on_a_slope(), suspension(), every_term(), taken_again()};
+  return {lid_driven(), stream_on_a_slope(), suspension(), syrup_through_a_layer(), every_term(), taken_again()};
 }
 
 }   // namespace bedload::test
