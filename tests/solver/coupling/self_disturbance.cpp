@@ -262,6 +262,50 @@ TEST(LoneGrain, DoesNotSeeItsOwnVolume) {
   EXPECT_GT(drag_of_a_grain(2, false, {}).x / law, 1.5);
 }
 
+Terms model_b_without_own_flow() {
+  Terms terms;
+  terms.self_disturbance = true, terms.pressure_gradient = terms.viscous_stress = false;
+  return terms;
+}
+
+TEST(LoneGrain, IsGivenSoMuchLessDragInModelAAsTheStressOfItsOwnDragBrings) {
+  // A slow flow passes on as stress what it gets: -grad q + nu lap u = -w f/V_c, of which the grain samples sum w^2.
+  const double h = 1.25;
+  const StaggeredGrid g = grid_of({8, 8, 8}, {h, h, h});
+  const Stencil stencil(g, {4.3 * h, 4.1 * h, 4.6 * h});
+  FaceFields weights(g);
+  deposit(stencil, Strides(g), Vec3{1, 1, 1}, weights);
+  const double squares = sample(stencil, Strides(g), weights).x, volume = sphere_volume(1) / g.cell_volume();
+  EXPECT_GT(volume * squares, 0.03);
+  Terms a;
+  a.self_disturbance = true;
+  const double ratio = drag_of_a_grain(h, true, model_b_without_own_flow()).x / drag_of_a_grain(h, true, a).x;
+  EXPECT_NEAR(ratio, 1 + volume * squares, 0.001);
+}
+
+TEST(LoneGrain, IsFreedOfTheFlowThatGetsOutOfItsWay) {
+  // A grain that moves through still fluid and hardly drags on it (Ergun's law): u = -grad q with div(u + J) = 0.
+  const double h = 1.25, speed = 1e-3;
+  const StaggeredGrid g = grid_of({16, 16, 16}, {h, h, h});
+  Grains grains = grains_at({{8.3 * h, 8.1 * h, 8.6 * h}}, 1);
+  grains.velocity[0] = {0, 0, speed};
+  std::vector<Stencil> stencils;
+  find_stencils(g, grains, stencils);
+  FaceFields flux(g), u(g), still(g);
+  deposit(stencils[0], Strides(g), sphere_volume(1) / g.cell_volume() * grains.velocity[0], flux);
+  fold_deposits(g, flux), fill_face_ghosts(g, flux);
+  Field<Centre> q(g), rhs(g), eps(g, 1);
+  divergence(g, flux, rhs);
+  PressureSolver(g).solve(FaceFields(g, 1), rhs, q, 1e-10, 0);
+  gradient(g, q, u);
+  for (int c = 0; c < 3; ++c) for_each_unknown_face(g, c, [&](std::size_t n) { u.component(c)[n] *= -1; });
+  FlowAtGrains flow;
+  sample_flow(g, grains, stencils, u, still, eps, Ergun{}, 1, model_b_without_own_flow(), flow);
+  EXPECT_LT(flow.velocity[0].z / speed, -0.01);
+  const double law = 3 * pi * Ergun{}.multiplier(1, speed) * speed;
+  EXPECT_NEAR(flow.drag[0].z * (speed - flow.velocity[0].z) / law, 1, 0.003);
+}
+
 TEST(LoneGrain, IsFreedOfItsOwnFlowAndAGrainInCompanyIsNot) {
   Terms with;
   with.self_disturbance = true;
