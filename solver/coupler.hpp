@@ -30,6 +30,7 @@ struct StepHealth {
   bool converged = true;                  // of both linear solves
   bool lost_grain = false;                // one crossed more than a cell in the step, or its centre passed a wall
   bool finite = true;
+  bool settles = true;   // false: packing has gone on for longer than any bed takes
 };
 
 /// Momentum that changed hands in a step, as mean forces over it [N]. Complete along x and y where those are periodic; what

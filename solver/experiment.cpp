@@ -114,6 +114,8 @@ StepHealth Experiment::Parts::pack(State& state) {
   StepHealth health;
   health.dt = progress.dt;
   health.finite = std::isfinite(progress.energy);
+  health.deepest_overlap = progress.deepest_overlap;
+  health.settles = progress.settled || state.clock.time < packing->patience();
   return health;
 }
 

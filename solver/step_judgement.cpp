@@ -17,6 +17,7 @@ constexpr double largest_divergence = 0.5;   // share of a cell's volume that a 
 
 std::string ailment(const StepHealth& health) {
   if (!health.finite) return "a velocity, spin, contact force or pressure is not finite";
+  if (!health.settles) return "the bed does not come to rest";
   if (health.lost_grain)
     return fmt::format("a grain moved {:.2g} cells in one step, or its centre passed a wall", health.grain_travel);
   if (!health.converged)

@@ -34,9 +34,10 @@ Vec3 settling_push(const BedScene& scene, double density) {
 struct BedPacking::Parts {
   explicit Parts(const BedScene& scene_) : scene(scene_), dynamics(lossy(scene_)) {}
 
+  double drag_rate(double diameter, double density) const;
   void set_forces(const Grains&);
   void wrap(Grains&) const;
-  Progress judge(const Grains&) const;
+  Progress judge(const Grains&, const GrainHealth&) const;
 
   BedScene scene;
   GrainDynamics dynamics;
@@ -44,13 +45,17 @@ struct BedPacking::Parts {
   std::vector<double> relaxation;
 };
 
+/// (G13) [1/s].
+double BedPacking::Parts::drag_rate(double d, double density) const {
+  const double stokes = 18 * scene.fluid.viscosity * scene.fluid.density / (density * d * d);
+  return std::min(stokes, std::sqrt(norm(settling_push(scene, density)) / d) / slowest_fall);
+}
+
 void BedPacking::Parts::set_forces(const Grains& grains) {
   push.resize(grains.size()), relaxation.resize(grains.size());
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    const double d = grains.diameter[i];
     push[i] = settling_push(scene, grains.density[i]);
-    const double stokes = 18 * scene.fluid.viscosity * scene.fluid.density / (grains.density[i] * d * d);   // (G13)
-    relaxation[i] = std::min(stokes, std::sqrt(norm(push[i]) / d) / slowest_fall);
+    relaxation[i] = drag_rate(grains.diameter[i], grains.density[i]);
   }
 }
 
@@ -62,7 +67,7 @@ void BedPacking::Parts::wrap(Grains& grains) const {
 // Grains that have just been let go are as slow as settled ones, and so are fine ones that sink at their terminal
 // speed: a settled grain is one whose contacts carry its weight. Energy is that of translation: nothing slows a grain
 // that spins about the normal of its only contact.
-BedPacking::Progress BedPacking::Parts::judge(const Grains& grains) const {
+BedPacking::Progress BedPacking::Parts::judge(const Grains& grains, const GrainHealth& health) const {
   double energy = 0, scale = 0;
   bool carried = true;
   for (std::size_t i = 0; i < grains.size(); ++i) {
@@ -74,7 +79,8 @@ BedPacking::Progress BedPacking::Parts::judge(const Grains& grains) const {
     carried = carried && norm(grains.mean_contact_force[i] + weight) <= weight_not_carried * norm(weight);
   }
   const double per_weight = scale > 0 ? energy / scale : 0;
-  return {substeps_per_interval * scene.dem_step, per_weight, carried && per_weight < settled_energy};
+  return {substeps_per_interval * scene.dem_step, per_weight, health.deepest_overlap,
+          carried && per_weight < settled_energy};
 }
 
 BedPacking::BedPacking(const BedScene& scene) : parts_(std::make_unique<Parts>(scene)) {}
@@ -83,9 +89,17 @@ BedPacking::~BedPacking() = default;
 BedPacking::Progress BedPacking::advance(Grains& grains, ContactHistory& contacts) {
   parts_->set_forces(grains);
   const GrainDrive drive{.push = parts_->push, .relaxation = parts_->relaxation};
-  parts_->dynamics.advance(grains, contacts, drive, parts_->scene.dem_step, substeps_per_interval, 0);
+  const GrainHealth health =
+      parts_->dynamics.advance(grains, contacts, drive, parts_->scene.dem_step, substeps_per_interval, 0);
   parts_->wrap(grains);
-  return parts_->judge(grains);
+  return parts_->judge(grains, health);
+}
+
+double BedPacking::patience() const {
+  const BedScene& scene = parts_->scene;
+  const double height = scene.length.z, weight = norm(settling_push(scene, scene.grains.density));
+  return 100 * (height * parts_->drag_rate(scene.grains.diameter, scene.grains.density) / weight +
+                std::sqrt(2 * height / weight));
 }
 
 bool needs_settling(const BedScene& scene) {

@@ -24,12 +24,15 @@ class BedPacking {
   explicit BedPacking(const BedScene&);
   ~BedPacking();
   struct Progress {
-    double dt;       // advanced [s]
-    double energy;   // mean kinetic energy per grain / (W' d)
+    double dt;                // advanced [s]
+    double energy;            // mean kinetic energy per grain / (W' d)
+    double deepest_overlap;   // per diameter of the smaller grain [-]
     bool settled;
   };
   /// One interval of some tens of sub-steps; wraps positions into the box.
   Progress advance(Grains&, ContactHistory&);
+  /// A hundred times the fall from the top of the box to the bottom [s]: what has not come to rest by then will not.
+  double patience() const;
 
  private:
   struct Parts;

@@ -8,6 +8,7 @@
 
 #include "solver/bed/bed_surface.hpp"
 #include "solver/bed/incipient_motion.hpp"
+#include "solver/step_judgement.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bedload {
@@ -37,6 +38,17 @@ State run(const Scene& scene) {
     if (::testing::Test::HasFailure()) break;
   }
   return state;
+}
+
+TEST(Experiment, FailsWhereGrainsAreTooSoftToMakeABed) {
+  Scene scene = bed_scene(150, FlowRamp::Kind::lid, {0.1});
+  scene.bed.grains.young_modulus = 50;   // a grain's own weight presses it in by a tenth of its diameter
+  Experiment experiment(scene);
+  State state = experiment.begin();
+  std::string cause;
+  for (int n = 0; n < 20'000 && cause.empty() && state.search.phase == Search::packing; ++n)
+    cause = ailment(experiment.step(state));
+  EXPECT_NE(cause.find("overlap"), std::string::npos) << cause;
 }
 
 TEST(Experiment, OverABareBottomMeasuresTheShieldsNumberItImposes) {

@@ -28,6 +28,7 @@ Scene pushed_grain(double push, int steps) {
 TEST(StepJudgement, HasALimitForEveryMeasureThatCanEndARun) {
   EXPECT_EQ(ailment({}), "");
   EXPECT_NE(ailment({.finite = false}), "");
+  EXPECT_NE(ailment({.settles = false}), "");
   EXPECT_NE(ailment({.lost_grain = true}), "");
   EXPECT_NE(ailment({.converged = false}), "");
   EXPECT_NE(ailment({.grain_travel = 0.6}), "");

@@ -59,8 +59,13 @@ Bed settle(const BedScene& scene, int most_intervals = 3000) {
   Bed bed;
   bed.grains = place_grains(scene);
   BedPacking packing(scene);
-  for (; bed.intervals < most_intervals && !bed.settled; ++bed.intervals)
-    bed.settled = packing.advance(bed.grains, bed.contacts).settled;
+  double time = 0;
+  for (; bed.intervals < most_intervals && !bed.settled; ++bed.intervals) {
+    const auto progress = packing.advance(bed.grains, bed.contacts);
+    bed.settled = progress.settled;
+    time += progress.dt;
+  }
+  EXPECT_LT(time, packing.patience() / 10) << "a bed that would be given up too early";
   return bed;
 }
 
