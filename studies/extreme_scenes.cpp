@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
+#include "studies/covering_pairs.hpp"
 #include "studies/extremes.hpp"
 
 namespace bedload {
 namespace {
 
-constexpr int full_length = 400, short_length = 200;   // fluid steps
+constexpr int full_length = 1500, short_length = 220;   // fluid steps
 
 struct Level {
   const char *name, *lines;
@@ -121,55 +122,6 @@ std::vector<ExtremeScene> special_scenes() {
 std::string joined(const std::string& a, const std::string& b) { return a.empty() || b.empty() ? a + b : a + "\n" + b; }
 
 }   // namespace
-
-// Row by row: each takes the levels that cover most pairs not yet covered, factor after factor, ties to the lowest level.
-std::vector<std::vector<int>> covering_pairs(const std::vector<int>& levels) {
-  const int factors = static_cast<int>(levels.size());
-  const auto at = [&](const std::vector<int>& row, int a, int b) {
-    int place = 0;
-    for (int f = 0; f < a; ++f)
-      for (int g = f + 1; g < factors; ++g) place += levels[f] * levels[g];
-    for (int g = a + 1; g < b; ++g) place += levels[a] * levels[g];
-    return static_cast<std::size_t>(place + row[a] * levels[b] + row[b]);
-  };
-  std::size_t pairs = 0;
-  for (int a = 0; a < factors; ++a)
-    for (int b = a + 1; b < factors; ++b) pairs += static_cast<std::size_t>(levels[a] * levels[b]);
-  std::vector<bool> covered(pairs, false);
-
-  std::vector<std::vector<int>> rows;
-  for (std::size_t left = pairs; left > 0;) {
-    std::vector<int> row(levels.size(), -1);
-    // The first open pair, then the other factors by what they add.
-    for (int a = 0; a < factors && row[0] < 0; ++a)
-      for (int b = a + 1; b < factors; ++b)
-        for (int n = 0; n < levels[a] * levels[b]; ++n) {
-          std::vector<int> seed(levels.size(), -1);
-          seed[a] = n / levels[b], seed[b] = n % levels[b];
-          if (covered[at(seed, a, b)]) continue;
-          row = seed;
-          a = b = factors;   // leaves all three loops
-          break;
-        }
-    for (int f = 0; f < factors; ++f) {
-      if (row[f] >= 0) continue;
-      int best = 0, most = -1;
-      for (int level = 0; level < levels[f]; ++level) {
-        row[f] = level;
-        int gain = 0;
-        for (int g = 0; g < factors; ++g)
-          if (g != f && row[g] >= 0) gain += !covered[at(row, std::min(f, g), std::max(f, g))];
-        if (gain > most) most = gain, best = level;
-      }
-      row[f] = best;
-    }
-    for (int a = 0; a < factors; ++a)
-      for (int b = a + 1; b < factors; ++b)
-        if (const auto place = at(row, a, b); !covered[place]) covered[place] = true, --left;
-    rows.push_back(row);
-  }
-  return rows;
-}
 
 std::vector<ExtremeScene> extreme_scenes(bool quick) {
   std::vector<ExtremeScene> scenes = special_scenes();

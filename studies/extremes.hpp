@@ -5,6 +5,7 @@
 // pair of levels of the factors occurs.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@
 
 namespace bedload {
 
+/// How large a scene of the matrix may be: in grains, and in fluid steps if it ends.
+inline constexpr std::uint64_t most_grains = 500, fewest_steps = 200, most_steps = 2000;
+
 /// What becomes of a scene.
 enum class Outcome { finished, refused, failed };
 
@@ -22,7 +26,7 @@ struct ExtremeScene {
   std::string base;   // study file, without .toml
   std::string
       overrides;   // lines of a study file: `grains.density = "1010 kg/m3"`; `without drive.shields` takes a table out
-  int steps = 0;   // length of the run, in fluid steps as long as the scene's own limit
+  int steps = 0;   // length of the run, in fluid steps
   Outcome expected = Outcome::finished;
   std::string why;      // it must be refused
   bool quick = false;   // part of the short form
@@ -60,8 +64,5 @@ ExtremeRow run_extreme(const ExtremeScene&);
 
 /// The matrix as a table: scene, base, overrides, outcome, books, retries, verdict, message.
 Rows extremes_table(const std::vector<ExtremeRow>&);
-
-/// Rows of level indices, one per factor, in which every pair of levels of two factors occurs. Greedy, without chance.
-std::vector<std::vector<int>> covering_pairs(const std::vector<int>& levels);
 
 }   // namespace bedload

@@ -16,7 +16,8 @@ Written by `{}`, bedload {} ({}). Do not edit: run the command.
 
 Scenes at the edges of what can be asked for: one factor at a time around two beds, special arrangements of grains, and a set
 in which every pair of levels of seven factors occurs. Each is a study file of [studies/validation](../studies/validation) and
-the keys that are put in place of the file's. Each runs to its end, is refused, or fails with a word; what it was to do stands
+the keys that are put in place of the file's. A scene is run once without an end, to see how much time its fluid steps take, and
+then for that time (drive.dwell). Each runs to its end, is refused, or fails with a word; what it was to do stands
 in the verdict. Books are the worst over all steps (docs/physics_coupling.md): *volume* of the fluid against box less grains,
 *momentum* that a step made, of all that changed hands (periodic scenes), *divergence* div(eps u + J) T that a step left (bounded
 where grains move, else at most 1e-8), *energy* made without a source, of what was exchanged. *resumed*: the run, saved and

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -23,15 +22,6 @@ constexpr ValidationGroup groups[] = {
     {"fluid", "flows without grains, laminar and turbulent", fluid_rungs},
     {"onset", "what it takes to move a grain out of its place", onset_rungs},
 };
-
-/// A file of studies/validation, wherever the program runs.
-std::string embedded_text(const std::filesystem::path& file) {
-  const auto name = file.filename().string();
-  const auto found = std::ranges::find(validation_files(), name, &EmbeddedFile::name);
-  if (found == validation_files().end())
-    throw Error(ErrorKind::not_found, fmt::format("there is no file {} in studies/validation", name));
-  return std::string(found->text);
-}
 
 }   // namespace
 
@@ -78,11 +68,11 @@ std::vector<ValidationGroup> groups_named(const std::vector<std::string>& names)
 
 Study validation_study(std::string_view name) {
   const std::filesystem::path file = fmt::format("studies/validation/{}.toml", name);
-  return parse_study(embedded_text(file), file.string());
+  return parse_study(validation_text(file), file.string());
 }
 
 std::vector<Case> cases_of(const Rung& rung, bool quick) {
-  auto cases = unfold(validation_study(rung.study), embedded_text);
+  auto cases = unfold(validation_study(rung.study), validation_text);
   if (quick) std::erase_if(cases, [&](const Case& one) { return !rung.quick || !rung.quick(one); });
   return cases;
 }

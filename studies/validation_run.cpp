@@ -1,29 +1,22 @@
 // Climbing the ladder: cases side by side in threads, each rung measured when its last case is done.
 #include <algorithm>
 #include <atomic>
-#include <ctime>
 #include <mutex>
 #include <optional>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/thread_clock.hpp"
 #include "solver/experiment.hpp"
 #include "solver/step_judgement.hpp"
 #include "studies/plan.hpp"
+#include "studies/run_in_parallel.hpp"
 #include "studies/validation.hpp"
 
 namespace bedload {
 
 namespace {
-
-/// CPU time of this thread [s]: on a machine that is shared, less than the time that passes.
-double thread_seconds() {
-  struct timespec spent {};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
-  return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
-}
 
 /// A rung being climbed: a place for each of its cases, and how many are still to come.
 struct Climb {
@@ -125,29 +118,19 @@ std::vector<RungResult> climb(const std::vector<ValidationGroup>& groups, const 
     }
   const auto jobs = jobs_of(climbs, options.quick);
 
-  std::atomic<std::size_t> next = 0;
   std::mutex speaking;
-  const auto work = [&] {
-    for (std::size_t n; (n = next++) < jobs.size();) {
-      Climb& climb = *jobs[n].climb;
-      try {
-        climb.finished[jobs[n].index] = run_in_memory(climb.cases[jobs[n].index]);
-      } catch (const std::exception& error) {
-        climb.failures[jobs[n].index] = error.what();
-      }
-      if (--climb.left > 0) continue;
-      measure(climb);
-      const std::lock_guard lock(speaking);
-      options.progress(summary(climb.result));
+  run_in_parallel(jobs.size(), options.cores, [&](std::size_t n) {
+    Climb& climb = *jobs[n].climb;
+    try {
+      climb.finished[jobs[n].index] = run_in_memory(climb.cases[jobs[n].index]);
+    } catch (const std::exception& error) {
+      climb.failures[jobs[n].index] = error.what();
     }
-  };
-  const auto all = std::max(1u, std::thread::hardware_concurrency());
-  const auto workers =
-      std::min<std::size_t>(options.cores > 0 ? options.cores : all, std::max<std::size_t>(1, jobs.size()));
-  std::vector<std::thread> threads;
-  for (std::size_t n = 1; n < workers; ++n) threads.emplace_back(work);
-  work();
-  for (auto& thread : threads) thread.join();
+    if (--climb.left > 0) return;
+    measure(climb);
+    const std::lock_guard lock(speaking);
+    options.progress(summary(climb.result));
+  });
 
   std::vector<RungResult> results;
   for (auto& climb : climbs) results.push_back(std::move(climb->result));

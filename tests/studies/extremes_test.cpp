@@ -3,30 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <set>
 
 namespace bedload {
 namespace {
-
-TEST(CoveringPairs, HaveEveryPairOfLevelsOfTwoFactors) {
-  const std::vector<int> levels = {4, 4, 3, 3, 3, 2, 2};
-  const auto rows = covering_pairs(levels);
-  std::size_t wanted = 0;
-  std::set<std::array<int, 4>> seen;
-  for (int a = 0; a < 7; ++a)
-    for (int b = a + 1; b < 7; ++b) wanted += static_cast<std::size_t>(levels[a] * levels[b]);
-  for (const auto& row : rows)
-    for (int a = 0; a < 7; ++a) {
-      ASSERT_GE(row[a], 0);
-      ASSERT_LT(row[a], levels[a]);
-      for (int b = a + 1; b < 7; ++b) seen.insert({a, row[a], b, row[b]});
-    }
-  EXPECT_EQ(seen.size(), wanted);
-  EXPECT_LE(rows.size(), 24u);   // 16 at least: the two factors of four levels
-  EXPECT_EQ(rows, covering_pairs(levels));
-}
 
 TEST(ExtremeScenes, AreAboutEightyAndTheShortFormIsAPartOfThem) {
   const auto all = extreme_scenes(false), part = extreme_scenes(true);
@@ -41,6 +22,7 @@ ExtremeRow right_row() {
   ExtremeRow row;
   row.outcome = Outcome::finished;
   row.resumed_is_straight = row.all_finite = true;
+  row.grains = 160, row.steps = 400;
   return row;
 }
 
@@ -54,6 +36,9 @@ TEST(ExtremeRow, IsWrongByEachOfItsBooks) {
   EXPECT_TRUE(wrong([](ExtremeRow& r) { r.outcome = Outcome::failed; }));
   EXPECT_TRUE(wrong([](ExtremeRow& r) { r.scene.expected = Outcome::refused; }));
   EXPECT_TRUE(wrong([](ExtremeRow& r) { r.all_finite = false; }));
+  EXPECT_TRUE(wrong([](ExtremeRow& r) { r.grains = 501; }));
+  EXPECT_TRUE(wrong([](ExtremeRow& r) { r.steps = 199; }));
+  EXPECT_TRUE(wrong([](ExtremeRow& r) { r.steps = 2001; }));
   EXPECT_TRUE(wrong([](ExtremeRow& r) { r.resumed_is_straight = false; }));
   EXPECT_TRUE(wrong([](ExtremeRow& r) { r.books.grains_unchanged = false; }));
   EXPECT_TRUE(wrong([](ExtremeRow& r) { r.books.fluid_volume = 2e-10; }));
@@ -62,6 +47,16 @@ TEST(ExtremeRow, IsWrongByEachOfItsBooks) {
   EXPECT_TRUE(wrong([](ExtremeRow& r) { r.books.energy = 0.02; }));
   EXPECT_TRUE(wrong([](ExtremeRow& r) { r.books.divergence = 2e-8; }));
   EXPECT_FALSE(wrong([](ExtremeRow& r) { r.books.divergence = 2e-8, r.books.mobile = true; }));
+}
+
+TEST(ExtremeScenes, TakeAsManyStepsAsTheyAreToWhateverLimitsThese) {
+  const std::string few = "bed.count = 40\n", large = few + "grains.diameter = \"20 mm\"",
+                    syrup = few + "grains.diameter = \"20 um\"\nfluid.viscosity = \"1e-2 m2/s\"";
+  for (const auto& [base, overrides] : {std::pair{"extremes-laminar", large}, {"extremes-water", syrup}}) {
+    const ExtremeRow row = run_extreme({.name = overrides, .base = base, .overrides = overrides, .steps = 200});
+    EXPECT_EQ(row.steps, 200u) << base << ": " << overrides << ": " << row.message;
+    EXPECT_EQ(row.wrong(), "") << base << ": " << overrides;
+  }
 }
 
 TEST(ExtremeScenes, ThatMustBeRefusedAreRefusedWithAWord) {
