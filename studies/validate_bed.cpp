@@ -8,28 +8,14 @@
 
 #include "solver/bed/bed_profiles.hpp"
 #include "solver/coupling/face_void_fraction.hpp"
+#include "studies/packed_bed_laws.hpp"
 #include "studies/svg_plot.hpp"
+#include "studies/validate_fluidisation.hpp"
 #include "studies/validation.hpp"
 
 namespace bedload {
 
 namespace {
-
-constexpr const char* di_felice_source = "Di Felice 1994";
-
-/// Multiplier of the Stokes drag, Di Felice (1994) on Dallavalle's drag coefficient; re is superficial.
-double di_felice(double eps, double re) {
-  const double coefficient = std::pow(0.63 + 4.8 / std::sqrt(re), 2) * re / 24;
-  const double chi = 3.7 - 0.65 * std::exp(-std::pow(1.5 - std::log10(re), 2) / 2);
-  return coefficient * std::pow(eps, -chi);
-}
-
-/// Gradient per flux of a bed, G d^2/(mu U), by Di Felice or by Ergun (1952).
-double gradient_per_flux(const std::string& law, double eps, double re) {
-  const double phi = 1 - eps;
-  if (law == "ergun") return 150 * phi * phi / (eps * eps * eps) + 1.75 * phi * re / (eps * eps * eps);
-  return 18 * phi * di_felice(eps, re) / eps;
-}
 
 /// Volume flux of fluid along x per area [m/s].
 double flux_along_x(const FinishedCase& run) {
@@ -119,24 +105,15 @@ double lone_speed(const FinishedCase& run) {
   const double d = run.input("grains.diameter"), nu = run.input("fluid.viscosity");
   const double stokes =
       (run.input("grains.density") / run.input("fluid.density") - 1) * run.input("box.gravity") * d * d / (18 * nu);
-  double low = 0, high = 2 * stokes;
-  for (int halving = 0; halving < 200; ++halving) {
-    const double speed = (low + high) / 2;
-    (di_felice(1, speed * d / nu) * speed < stokes ? low : high) = speed;
-  }
-  return low;
+  return zero_of_rising([&](double speed) { return di_felice(1, speed * d / nu) * speed - stokes; }, 0, 2 * stokes);
 }
 
 /// What the law gives for U/U_t: 3 pi mu d F(eps, Re) U = eps W', U the flux of fluid past the grains.
 double hindered_speed(const FinishedCase& run, double eps) {
   const double d = run.input("grains.diameter"), nu = run.input("fluid.viscosity"), alone = lone_speed(run);
   const double weight = di_felice(1, alone * d / nu) * alone;
-  double low = 0, high = alone;
-  for (int halving = 0; halving < 200; ++halving) {
-    const double speed = (low + high) / 2;
-    (di_felice(eps, speed * d / nu) * speed < eps * weight ? low : high) = speed;
-  }
-  return low / alone;
+  return zero_of_rising([&](double speed) { return di_felice(eps, speed * d / nu) * speed - eps * weight; }, 0, alone) /
+         alone;
 }
 
 Findings free_suspension(const std::vector<FinishedCase>& runs) {
@@ -171,75 +148,6 @@ Findings free_suspension(const std::vector<FinishedCase>& runs) {
                            "Settling speed of a suspension against its solid fraction: runs (points) and what the drag "
                            "law of Di Felice (1994) gives at zero net volume flux (lines).",
                            plot.svg()});
-  return found;
-}
-
-// ---- Fluidisation
-
-/// Fluid rising through the free part of a bed, from two diameters above its fixed layer to the clear fluid over it, by
-/// plane means: what its pressure drops, what its grains weigh, and what the drag law takes at the bed's own porosity.
-struct RisingFlow {
-  double drop = 0;     // measured [Pa]
-  double weight = 0;   // submerged, per area [Pa]
-  double drag = 0;     // by the law [Pa]
-  double flux = 0;     // [m/s]
-};
-
-RisingFlow rising_flow(const FinishedCase& run) {
-  const StaggeredGrid& grid = run.one.scene.grid;
-  const FaceFields eps = face_void_fraction(grid, run.state.grains, run.one.scene.smoothing);
-  const auto [nx, ny, nz] = grid.cells;
-  const auto plane = [&](auto&& value, int k) {
-    double sum = 0;
-    for (int i = 0; i < nx; ++i)
-      for (int j = 0; j < ny; ++j) sum += value(grid.index(i, j, k));
-    return sum / (double(nx) * ny);
-  };
-  const auto pressure = [&](std::size_t n) { return run.state.fluid.pressure[n]; };
-  const double d = run.input("grains.diameter"), nu = run.input("fluid.viscosity"), rho = run.input("fluid.density");
-  const double excess = (run.input("grains.density") - rho) * run.input("box.gravity"), h = grid.h.z;
-  const int lowest = static_cast<int>(std::ceil(2 * d / h)), highest = nz - 2;
-  RisingFlow flow{.flux = run.state.search.through_flow};
-  flow.drop = rho * (plane(pressure, lowest) - plane(pressure, highest) +
-                     run.state.fluid.column_gradient * h * (highest - lowest));
-  for (int k = lowest + 1; k <= highest; ++k) {
-    const double porosity = plane([&](std::size_t n) { return eps.z[n]; }, k), phi = 1 - porosity;
-    flow.weight += phi * excess * h;
-    flow.drag += rho * nu * gradient_per_flux("di_felice", porosity, flow.flux * d / nu) * flow.flux / (d * d) * h;
-  }
-  return flow;
-}
-
-Findings fluidised_bed(const std::vector<FinishedCase>& runs) {
-  Findings found;
-  for (const auto& run : runs) {
-    const RisingFlow flow = rising_flow(run);
-    found.rows.push_back({.name = fmt::format("fluidised at {:.2g} mm/s: drop of pressure [Pa]", 1e3 * flow.flux),
-                          .reference = flow.weight,
-                          .source = "submerged weight per area of the grains in the bed",
-                          .ours = flow.drop,
-                          .band = Band::within(0.01)});
-  }
-  return found;
-}
-
-/// Below minimum fluidisation the drop is less than the weight, and the rest stands on the grains: nothing moves.
-Findings minimum_fluidisation(const std::vector<FinishedCase>& runs) {
-  Findings found;
-  for (const auto& run : runs) {
-    const RisingFlow flow = rising_flow(run);
-    found.rows.push_back({.name = fmt::format("settled again at {:.2g} mm/s: drop of pressure [Pa]", 1e3 * flow.flux),
-                          .reference = flow.drag,
-                          .source = "Di Felice 1994, at the bed's plane-mean porosity",
-                          .ours = flow.drop,
-                          .band = Band::within(0.05)});
-    double squares = 0;
-    for (const Vec3& v : run.state.grains.velocity) squares += dot(v, v);
-    found.rows.push_back(ValidationRow::note(
-        fmt::format("settled again at {:.2g} mm/s: root mean square speed of its grains [of the flux]",
-                    1e3 * flow.flux),
-        "below minimum fluidisation a bed rests: 0", std::sqrt(squares / double(run.state.grains.size())) / flow.flux));
-  }
   return found;
 }
 
@@ -284,56 +192,81 @@ std::vector<double> brinkman(const FinishedCase& run, int n) {
   return u;
 }
 
-Findings brinkman_bed(const std::vector<FinishedCase>& runs) {
-  Findings found;
+/// The flow of one mesh beside Brinkman's, between heights that matter: from 1 d below the surface to 2 d above it.
+struct OverABed {
+  double cells;                   // height of a cell [d]
+  std::vector<PlotPoint> ours;    // speed of the planes of cells [% of the lid's], height [d]
+  std::vector<PlotPoint> exact;   // of Brinkman's problem
+  double difference;              // mean of |ours - exact| over the mean of exact there [-]
+};
+
+OverABed over_a_bed(const FinishedCase& run) {
+  constexpr int fine = 4000;
+  const double d = run.input("grains.diameter"), height = run.one.scene.bed.length.z, h = run.one.scene.grid.h.z;
+  const double per_lid = 100 / run.state.search.lid_speed, surface = 5.5 * d;
+  const auto exact = brinkman(run, fine);
+  const auto exact_at = [&](double z) {
+    const double at = z / height * fine - 0.5;
+    const auto k = static_cast<std::size_t>(std::clamp(at, 0.0, fine - 2.0));
+    return exact[k] + (exact[k + 1] - exact[k]) * (at - double(k));
+  };
+  const auto ours = plane_means(run.state.fluid.velocity.x, run.one.scene.grid);
+  OverABed flow{.cells = h / d, .ours = {}, .exact = {}, .difference = 0};
+  double size = 0;
+  for (std::size_t k = 0; k < ours.size(); ++k) {
+    const double z = (double(k) + 0.5) * h;
+    flow.ours.push_back({per_lid * ours[k], z / d});
+    if (z < surface - d || z > surface + 2 * d) continue;
+    flow.difference += std::abs(ours[k] - exact_at(z)), size += exact_at(z);
+  }
+  flow.difference /= size;
+  for (int k = 0; k < fine; k += 8)
+    if (exact[k] > 0) flow.exact.push_back({per_lid * exact[k], (k + 0.5) * height / fine / d});
+  return flow;
+}
+
+/// The coarsest mesh says where the convergence begins, each finer one is nearer, the finest is there.
+ValidationRow row_of(const OverABed& flow, const OverABed* coarser) {
+  const auto name = fmt::format(
+      "cells {:.2g} d high: flow from 1 d below to 2 d above the surface, difference in the mean of |u| [%]",
+      flow.cells);
+  if (!coarser)
+    return ValidationRow::note(name, "Brinkman 1949, the same eps(z): where the convergence begins",
+                               100 * flow.difference);
+  const bool finest = flow.cells < 0.3;
+  return {.name = name,
+          .reference = finest ? 0 : 100 * coarser->difference,
+          .source = finest ? "Brinkman 1949, the same eps(z)" : "less than on the cells before",
+          .ours = 100 * flow.difference,
+          .band = finest ? Band{0, 3, false} : Band::at_most()};
+}
+
+ValidationFigure figure_of(const std::vector<OverABed>& meshes) {
   SvgPlot plot(640, 360, {"flow speed / speed of the lid [%]", 0.01, 100, true}, {"height [d]", 3, 11}, 190);
   constexpr const char* colours[] = {"#1b6ca8", "#b5442b", "#3a7d44"};
-  double coarser = 0;
-  std::size_t n = 0;
-  for (const auto& run : runs) {
-    constexpr int fine = 4000;
-    const double d = run.input("grains.diameter"), height = run.one.scene.bed.length.z, h = run.one.scene.grid.h.z;
-    const double lid = run.state.search.lid_speed, surface = 5.5 * d;
-    const auto exact = brinkman(run, fine);
-    const auto exact_at = [&](double z) {
-      const double at = z / height * fine - 0.5;
-      const auto k = static_cast<std::size_t>(std::clamp(at, 0.0, fine - 2.0));
-      return exact[k] + (exact[k + 1] - exact[k]) * (at - double(k));
-    };
-    const auto ours = plane_means(run.state.fluid.velocity.x, run.one.scene.grid);
-    double difference = 0, size = 0;
-    std::vector<PlotPoint> line;
-    const auto* colour = colours[n++ % std::size(colours)];
-    for (std::size_t k = 0; k < ours.size(); ++k) {
-      const double z = (double(k) + 0.5) * h;
-      if (ours[k] > 0) plot.marker({100 * ours[k] / lid, z / d}, Marker::circle, colour, true, "");
-      if (z < surface - d || z > surface + 2 * d) continue;
-      difference += std::abs(ours[k] - exact_at(z)), size += exact_at(z);
-    }
-    for (int k = 0; k < fine; k += 8)
-      if (exact[k] > 0) line.push_back({100 * exact[k] / lid, (k + 0.5) * height / fine / d});
-    plot.line(line, {colour, 1.2, ""});
-    plot.legend_marker(fmt::format("cells {:.2g} d high", h / d), Marker::circle, colour, true);
-    const double error = difference / size;
-    const bool finest = h / d < 0.3;
-    const auto name = fmt::format(
-        "cells {:.2g} d high: flow from 1 d below to 2 d above the surface, difference in the mean of |u| [%]", h / d);
-    if (coarser == 0)
-      found.rows.push_back(
-          ValidationRow::note(name, "Brinkman 1949, the same eps(z): where the convergence begins", 100 * error));
-    else
-      found.rows.push_back({.name = name,
-                            .reference = finest ? 0 : 100 * coarser,
-                            .source = finest ? "Brinkman 1949, the same eps(z)" : "less than on the cells before",
-                            .ours = 100 * error,
-                            .band = finest ? Band{0, 3, false} : Band::at_most()});
-    coarser = error;
+  for (std::size_t n = 0; n < meshes.size(); ++n) {
+    const auto* colour = colours[n % std::size(colours)];
+    for (const PlotPoint& p : meshes[n].ours)
+      if (p.x > 0) plot.marker(p, Marker::circle, colour, true, "");
+    plot.line(meshes[n].exact, {colour, 1.2, ""});
+    plot.legend_marker(fmt::format("cells {:.2g} d high", meshes[n].cells), Marker::circle, colour, true);
   }
   plot.legend_line("Brinkman 1949", {"#333", 1.2, ""});
-  found.figures.push_back({"brinkman",
-                           "Flow over and in a frozen bed, sheared by a lid: plane means (points) and the solution of "
-                           "Brinkman's one-dimensional problem with the same smoothed void fraction (lines).",
-                           plot.svg()});
+  return {"brinkman",
+          "Flow over and in a frozen bed, sheared by a lid: plane means (points) and the solution of Brinkman's "
+          "one-dimensional problem with the same smoothed void fraction (lines).",
+          plot.svg()};
+}
+
+/// Cases from the coarsest cells to the finest.
+Findings brinkman_bed(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  std::vector<OverABed> meshes;
+  for (const auto& run : runs) {
+    meshes.push_back(over_a_bed(run));
+    found.rows.push_back(row_of(meshes.back(), meshes.size() > 1 ? &meshes[meshes.size() - 2] : nullptr));
+  }
+  found.figures.push_back(figure_of(meshes));
   return found;
 }
 
@@ -370,7 +303,10 @@ std::vector<Rung> bed_rungs() {
       {"bed-hindered-frozen", "flow through grains held at random places", frozen_suspension, quick_frozen},
       {"bed-hindered-free", "settling of a suspension", free_suspension, quick_free},
       {"bed-fluidised", "a bed lifted by rising fluid", fluidised_bed, {}},
-      {"bed-minimum-fluidisation", "a bed that rising fluid does not lift", minimum_fluidisation, {}},
+      {"bed-minimum-fluidisation",
+       "fluid rises through a settled bed, up to more than lifts it",
+       minimum_fluidisation,
+       {}},
       {"bed-brinkman", "a lid shears fluid over a frozen bed", brinkman_bed, every_case},
       {"bed-at-rest", "a settled bed in still fluid", bed_at_rest, every_case},
   };
