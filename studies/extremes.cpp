@@ -152,11 +152,13 @@ ExtremeRow run_extreme(const ExtremeScene& scene) {
   return row;
 }
 
+std::string_view name_of(Outcome outcome) {
+  constexpr std::string_view names[] = {"finished", "refused", "failed"};
+  return names[static_cast<int>(outcome)];
+}
+
 std::string ExtremeRow::wrong() const {
-  if (outcome != scene.expected) {
-    constexpr const char* words[] = {"finished", "refused", "failed"};
-    return fmt::format("{}, not {}", words[int(outcome)], words[int(scene.expected)]);
-  }
+  if (outcome != scene.expected) return fmt::format("{}, not {}", name_of(outcome), name_of(scene.expected));
   if (outcome == Outcome::refused) return message.empty() ? "refused without a word" : "";
   if (!all_finite) return "a number is not finite";
   if (outcome == Outcome::failed) return message.empty() ? "failed without a word" : "";
@@ -192,7 +194,6 @@ Rows extremes_table(const std::vector<ExtremeRow>& rows) {
              {}};
   const auto some = [](const std::optional<double>& book) { return book ? Value(*book) : Value(); };
   for (const ExtremeRow& row : rows) {
-    constexpr const char* words[] = {"finished", "refused", "failed"};
     const bool ran = row.outcome != Outcome::refused, ended = row.outcome == Outcome::finished;
     const auto ran_only = [&](double value) { return ran ? Value(value) : Value(); };
     std::string overrides = row.scene.overrides;
@@ -200,7 +201,7 @@ Rows extremes_table(const std::vector<ExtremeRow>& rows) {
       overrides.replace(at, 1, "; ");
     std::string message = row.message;
     std::ranges::replace(message, '\n', ' ');
-    table.rows.push_back({row.scene.base, row.scene.name, std::string(words[int(row.outcome)]),
+    table.rows.push_back({row.scene.base, row.scene.name, std::string(name_of(row.outcome)),
                           static_cast<std::int64_t>(row.grains), static_cast<std::int64_t>(row.steps),
                           static_cast<std::int64_t>(row.retries), ran_only(row.cfl), ran_only(row.overlap),
                           ran_only(row.books.fluid_volume), some(row.books.momentum), ran_only(row.books.divergence),

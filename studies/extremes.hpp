@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scheduler/database.hpp"
@@ -20,6 +21,7 @@ inline constexpr std::uint64_t most_grains = 500, fewest_steps = 200, most_steps
 
 /// What becomes of a scene.
 enum class Outcome { finished, refused, failed };
+std::string_view name_of(Outcome);
 
 struct ExtremeScene {
   std::string name;

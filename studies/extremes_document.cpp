@@ -33,13 +33,12 @@ std::string number(double value) { return value == 0 ? "0" : fmt::format("{:.1e}
 std::string number(const std::optional<double>& value) { return value ? number(*value) : "-"; }
 
 std::string line_of(const ExtremeRow& row) {
-  constexpr const char* words[] = {"finished", "refused", "failed"};
   const std::string wrong = row.wrong(), verdict = wrong.empty() ? "right" : fmt::format("**{}**", wrong);
   if (row.outcome == Outcome::refused)
     return fmt::format("| {} | refused | | | | | | | | | | | {} |\n", row.scene.name, verdict);
   const Books& books = row.books;
   return fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {:.3f} | {} | {} | {} | {} | {} | {} |\n", row.scene.name,
-                     words[int(row.outcome)], row.grains, row.steps, row.retries, row.cfl, row.overlap,
+                     name_of(row.outcome), row.grains, row.steps, row.retries, row.cfl, row.overlap,
                      number(books.fluid_volume), number(books.momentum), number(books.divergence), number(books.energy),
                      row.resumed_is_straight ? "same" : "no", verdict);
 }
