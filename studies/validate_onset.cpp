@@ -1,10 +1,12 @@
-// Onset: what it takes to move a grain out of its place.
+// Onset: what it takes to move a grain out of its place, and a bed.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "solver/bed/incipient_motion.hpp"
+#include "studies/published_curves.hpp"
 #include "studies/svg_plot.hpp"
 #include "studies/validation.hpp"
 
@@ -92,6 +94,25 @@ Findings tilt(const std::vector<FinishedCase>& runs, double to_saddle, double he
           .figures = {}};
 }
 
+// ---- A bed
+
+/// Threshold of each packing, as a study finds it: where the flux passes the study's value between a hold that rests and one
+/// that moves, and whose next does too. NaN without both.
+Findings laminar_beds(const std::vector<FinishedCase>& runs) {
+  Findings found;
+  for (const auto& run : runs) {
+    const Onset& onset = run.one.scene.onset;
+    found.rows.push_back(
+        {.name = fmt::format("critical Shields number of a random bed, packing {} [-]", run.one.scene.bed.source.seed),
+         .reference = laminar_band.shields,
+         .source = std::string(laminar_band.source),
+         .ours = incipient_motion(run.state.record, onset.criterion, onset.value).shields,
+         .band = Band::within_absolute(laminar_band.half_width),
+         .against = Against::experiment});
+  }
+  return found;
+}
+
 bool level_or_down_and_smooth(const Case& one) {
   return one.inputs.number("box.slope") >= 0 && one.inputs.number("grains.friction") == 0;
 }
@@ -114,6 +135,7 @@ std::vector<Rung> onset_rungs() {
        "a pocket of four beads is tilted towards the saddle between two of them",
        [](const auto& runs) { return tilt(runs, 0.5, sqrt(0.5)); },
        {}},
+      {"onset-laminar-bed", "a lid shears a viscous liquid over a settled bed, more and more", laminar_beds, {}},
   };
 }
 
