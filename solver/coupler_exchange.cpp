@@ -1,6 +1,7 @@
 // What fluid and grains exchange over the step: drag, added mass, torque, explicit forces; one implicit solve.
 #include "solver/coupler_parts.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "solver/coupling/added_mass.hpp"
@@ -110,7 +111,7 @@ void Coupler::Parts::react_on_fluid(const State& state, double dt) {
 }
 
 /// Of a grain's added mass, what a contact force moves with it: the liquid at its faces goes along by the part A/(eps + A),
-/// A = sum w m_a/V_c as in the drag solve, and does not where a wall holds it; the mean of the three directions. With the
+/// A = sum w m_a/V_c as in the drag solve, and does not where a wall holds it; of the direction in which most does. With the
 /// whole of m_a, in a bed several times the liquid there is, liquid would overtake the grains that push it.
 void Coupler::Parts::find_carried_mass(const Grains& grains) {
   FaceFields& along = added_exchange;
@@ -123,7 +124,7 @@ void Coupler::Parts::find_carried_mass(const Grains& grains) {
   carried_mass.resize(grains.size());
   for (std::size_t p = 0; p < grains.size(); ++p) {
     const Vec3 part = sample(stencils[p], stride, read);
-    carried_mass[p] = scene.bed.fluid.density * added_volume[p] * (1 - (part.x + part.y + part.z) / 3);
+    carried_mass[p] = scene.bed.fluid.density * added_volume[p] * (1 - std::max({part.x, part.y, part.z}));
   }
 }
 
