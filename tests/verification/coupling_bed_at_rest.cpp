@@ -19,14 +19,27 @@ double fastest_flow(const Scene& scene, const State& state) {
   return fastest;
 }
 
-class FreeBed : public testing::TestWithParam<Smoothing> {};
-INSTANTIATE_TEST_SUITE_P(Kernel, FreeBed, testing::Values(Smoothing{}, Smoothing{.xy = 5e-4, .z = 4e-4}));
+struct BedCase {
+  double d, nu;   // [m], [m2/s]
+  bool added_mass = false;
+  Smoothing smoothing = {};
+  friend void PrintTo(const BedCase& c, std::ostream* out) {
+    *out << "d " << c.d << ", nu " << c.nu << (c.added_mass ? ", added mass" : "") << ", smoothing " << c.smoothing.xy;
+  }
+};
+class FreeBed : public testing::TestWithParam<BedCase> {};
+// With added mass a grain in water carries more liquid than its flat cells hold.
+INSTANTIATE_TEST_SUITE_P(Sand, FreeBed,
+                         testing::Values(BedCase{5e-4, 1e-5}, BedCase{5e-4, 1e-5, false, {.xy = 5e-4, .z = 4e-4}},
+                                         BedCase{5e-4, 1e-5, true}, BedCase{1e-3, 1e-6, true}));
 
 TEST_P(FreeBed, ComesToRestInStillFluid) {
-  const double d = 5e-4, s = 2.65, nu = 1e-5;
+  const auto [d, nu, added_mass, smoothing] = GetParam();
+  const double s = 2.65;
   Scene scene = fluid_scene({4, 4, 20}, {2 * d, 2 * d, 0.5 * d}, channel, nu);
   scene.bed.gravity = {0, 0, -9.81};
-  scene.smoothing = GetParam();
+  scene.smoothing = smoothing;
+  scene.terms.added_mass = added_mass;
   const double terminal = terminal_speed(DragLawName::di_felice, nu, s, d, 9.81);
   add_grains(scene, d, s, terminal);
   scene.bed.grains.spread = 0.05;
