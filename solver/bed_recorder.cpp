@@ -42,7 +42,9 @@ void add(const StepHealth& step, HoldHealth& hold) {
   worst(hold.divergence, step.divergence);
   worst(hold.divergence_left, step.divergence_left);
   hold.void_clamps += double(step.void_clamps);
+  hold.face_clamps += double(step.face_clamps);
   hold.disturbance_clamps += double(step.disturbance_clamps);
+  hold.lift_clamps += double(step.lift_clamps);
   worst(hold.pressure_iterations, step.pressure_iterations);
   worst(hold.drag_iterations, step.drag_iterations);
   hold.limited_by_cfl += step.limited_by == StepLimit::cfl;

@@ -26,7 +26,9 @@ struct StepHealth {
   double divergence_left = 0;   // largest |div(eps u + J)| T that the step found: what the one before left [-]
   int drag_iterations = 0, pressure_iterations = 0;
   std::uint64_t void_clamps = 0;          // grains whose void fraction was clamped in the drag law
-  std::uint64_t disturbance_clamps = 0;   // grains whose self-disturbance was outside its table
+  std::uint64_t face_clamps = 0;          // faces whose void fraction was clamped, for grains would overfill them
+  std::uint64_t disturbance_clamps = 0;   // grains whose own flow was clamped
+  std::uint64_t lift_clamps = 0;          // grains whose lift was clamped
   bool converged = true;                  // of both linear solves
   bool lost_grain = false;                // one crossed more than a cell in the step, or its centre passed a wall
   bool finite = true;

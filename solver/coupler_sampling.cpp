@@ -81,6 +81,7 @@ void Coupler::Parts::sample_at_grains(State& state) {
   sample_flow(grid, state.grains, stencils, state.fluid.velocity, on_grains(acceleration), before.centre, law,
               scene.bed.fluid.viscosity, scene.terms, flow, smoothing);
   health.void_clamps = flow.void_clamps;
+  health.face_clamps = before.overfilled.size();
   health.disturbance_clamps = flow.disturbance_clamps;
   if (!wants_vorticity()) return;
   find_vorticity(grid, carried, vorticity);
@@ -90,6 +91,7 @@ void Coupler::Parts::sample_at_grains(State& state) {
     flow.vorticity[p] = sample_edges(stencils[p], Strides(grid), turning);
   add_explicit_forces({grid, PeriodicBox(scene.bed), scene.bed.fluid.viscosity, state.search.lid_speed}, state.grains,
                       scene.terms, sheltering, flow);
+  health.lift_clamps = flow.lift_clamps;
 }
 
 }   // namespace bedload

@@ -191,12 +191,12 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("record/tracks/wz", t.wz, "rad/s");
 
   // A new member of State changes one of these sizes: list it above, then here.
-  static_assert(sizeof(Clock) == 5 * 8 && sizeof(Window) == 7 * 8 && sizeof(HoldHealth) == 18 * 8 &&
+  static_assert(sizeof(Clock) == 5 * 8 && sizeof(Window) == 7 * 8 && sizeof(HoldHealth) == 20 * 8 &&
                 sizeof(Search) == 14 * 8 + 2 * sizeof(Window) + sizeof(HoldHealth));
   static_assert(sizeof(FluidState) == 4 * sizeof(Field<Centre>) + 8);
   static_assert(sizeof(Grains) == 9 * sizeof(std::vector<Vec3>) &&
                 sizeof(ContactHistory) == 5 * sizeof(std::vector<Vec3>));
-  static_assert(sizeof(BedRecord) == (12 + 15 + 19 + 5 + 11) * sizeof(std::vector<double>));
+  static_assert(sizeof(BedRecord) == (12 + 15 + 21 + 5 + 11) * sizeof(std::vector<double>));
 }
 
 /// SHA-256 over each_field: name, unit, shape, little-endian bytes of the interior. Hexadecimal.

@@ -74,7 +74,9 @@ CREATE TABLE IF NOT EXISTS step_health (           -- one row per hold: the wors
   solver_residual           REAL NOT NULL,         -- of the projection, of its right-hand side
   divergence                REAL NOT NULL,         -- |div(eps u + J)| T that a step left
   void_clamps               INTEGER NOT NULL,      -- summed over grains and steps
+  face_clamps               INTEGER NOT NULL,      -- summed over faces and steps
   disturbance_clamps        INTEGER NOT NULL,
+  lift_clamps               INTEGER NOT NULL,
   pressure_iterations       INTEGER NOT NULL,      -- most in one step
   drag_iterations           INTEGER NOT NULL,
   limited_by_cfl            INTEGER NOT NULL,      -- steps that this limit shortened

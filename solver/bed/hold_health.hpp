@@ -17,7 +17,9 @@ struct HealthMeasures {
   Number divergence{};            // largest that a linear solve left, of its right-hand side [-]
   Number divergence_left{};       // largest |div(eps u + J)| T that a step found [-]
   Number void_clamps{};           // of the void fraction in the drag law, summed over grains and steps [-]
-  Number disturbance_clamps{};    // of the self-disturbance, the same [-]
+  Number face_clamps{};           // of the void fraction on faces, summed over faces and steps [-]
+  Number disturbance_clamps{};    // of a lone grain's own flow, summed over grains and steps [-]
+  Number lift_clamps{};           // of lift at half of the drag, the same [-]
   Number pressure_iterations{};   // most in one step [-]
   Number drag_iterations{};       // the same
   Number limited_by_cfl{};        // steps that the Courant number shortened [-]
@@ -40,7 +42,9 @@ struct HealthMeasures {
     visit("divergence", s.divergence, "1");
     visit("divergence_left", s.divergence_left, "1");
     visit("void_clamps", s.void_clamps, "1");
+    visit("face_clamps", s.face_clamps, "1");
     visit("disturbance_clamps", s.disturbance_clamps, "1");
+    visit("lift_clamps", s.lift_clamps, "1");
     visit("pressure_iterations", s.pressure_iterations, "1");
     visit("drag_iterations", s.drag_iterations, "1");
     visit("limited_by_cfl", s.limited_by_cfl, "1");

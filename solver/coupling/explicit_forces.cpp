@@ -97,7 +97,9 @@ void add_explicit_forces(const Surroundings& around, const Grains& grains, const
     if (terms.magnus) lift += magnus(slip, grains.spin[p] - 0.5 * vorticity, d, nu);
     if (terms.model_b()) lift = lift / std::clamp(flow.void_fraction[p], least_void, 1.0);
     const Vec3 beta = flow.drag[p];
-    flow.force[p] += scaled(applied, lift_force(slip, lift, std::min({beta.x, beta.y, beta.z})));
+    const Vec3 limited = limited_lift(lift, std::min({beta.x, beta.y, beta.z}));
+    flow.lift_clamps += limited != lift;
+    flow.force[p] += scaled(applied, cross(slip, limited));
     if (terms.exposure) flow.force[p] += scaled(beta, exposure_velocity(level[p], d, vorticity));
   }
 }

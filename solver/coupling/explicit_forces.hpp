@@ -25,7 +25,8 @@ struct WallTorque {
 WallTorque wall_torque(const StaggeredGrid&, Vec3 position, double diameter, double packing_of_others);
 
 /// Adds these terms, in this order: walls change flow.drag and add to flow.force; lift and exposure add to flow.force.
-/// Reads flow.velocity, vorticity, void_fraction, packing, drag, removed; a lift never exceeds half of the drag (lift_force).
+/// Reads flow.velocity, vorticity, void_fraction, packing, drag, removed; a lift never exceeds half of the drag (limited_lift), which is
+/// counted.
 void add_explicit_forces(const Surroundings&, const Grains&, const Terms&, Sheltering&, FlowAtGrains&);
 
 }   // namespace bedload

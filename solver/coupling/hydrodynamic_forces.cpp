@@ -54,7 +54,6 @@ Vec3 drag_without_own_flow(const Coefficient& coefficient, const SelfDisturbance
 template <class Law>
 void evaluate_drag(const Law& law, const StaggeredGrid& grid, const Grains& grains, double viscosity, bool model_b,
                    FlowAtGrains& flow) {
-  flow.void_clamps = flow.disturbance_clamps = 0;
   for (std::size_t p = 0; p < grains.size(); ++p) {
     const double lone = loneness(flow.packing.others[p]);
     const double surroundings = flow.void_fraction[p] + lone * flow.packing.own[p];
@@ -82,6 +81,7 @@ void sample_flow(const StaggeredGrid& grid, const Grains& grains, std::span<cons
   const std::size_t n = grains.size();
   flow.velocity.resize(n), flow.acceleration.resize(n), flow.void_fraction.resize(n);
   flow.drag.assign(n, {}), flow.force.assign(n, {});
+  flow.void_clamps = flow.disturbance_clamps = flow.lift_clamps = 0;
   const FaceFields& u = smoothing.seen(grid, velocity, flow.seen.velocity);
   const FaceFields& a = smoothing.seen(grid, acceleration, flow.seen.acceleration);
   const Field<Centre>& eps = smoothing.seen(grid, void_fraction, flow.seen.void_fraction);

@@ -31,6 +31,7 @@ struct FlowAtGrains {
   } seen;                                 // what grains read of the fields; only with a smoothing
   std::uint64_t void_clamps = 0;          // grains whose void fraction lay below least_void
   std::uint64_t disturbance_clamps = 0;   // grains whose own flow was clamped at 0.7 of the slip
+  std::uint64_t lift_clamps = 0;          // grains whose lift was clamped at half of the drag
 };
 
 /// Samples the flow with each grain's own weights and evaluates f_d = 3 pi mu d F(eps, Re) eps w, Re = eps |w| d/nu.

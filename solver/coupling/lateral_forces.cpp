@@ -46,9 +46,9 @@ Vec3 shear_lift_near_wall(Vec3 slip, Vec3 vorticity, Vec3 at_wall, double d, dou
   return (1 - gap) * near + gap * far;
 }
 
-Vec3 lift_force(Vec3 slip, Vec3 lift_vector, double drag) {
+Vec3 limited_lift(Vec3 lift_vector, double drag) {
   const double k = norm(lift_vector), most = largest_lift * drag;
-  return cross(slip, k > most ? most / k * lift_vector : lift_vector);
+  return k > most ? most / k * lift_vector : lift_vector;
 }
 
 }   // namespace bedload

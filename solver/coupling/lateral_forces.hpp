@@ -27,9 +27,9 @@ double wall_lift_coefficient(double gap, double re);
 /// saffman_mei one diameter away, weighted linearly between (an engineering choice).
 Vec3 shear_lift_near_wall(Vec3 slip, Vec3 vorticity, Vec3 at_wall, double diameter, double viscosity, double distance);
 
-/// w x k, k cut to half of `drag` (force per slip and fluid density, its least axis [m3/s]). Within the ranges of the laws k
+/// The lift vector k, cut to half of `drag` (force per slip and fluid density, its least axis [m3/s]). Within the ranges of the laws k
 /// stays below that (0.15 of the drag for saffman_mei, 0.44 at a wall). Beyond - a grain that goes along with a strong shear -
 /// an explicit lift larger than the implicit drag would grow from step to step.
-Vec3 lift_force(Vec3 slip, Vec3 lift_vector, double drag);
+Vec3 limited_lift(Vec3 lift_vector, double drag);
 
 }   // namespace bedload

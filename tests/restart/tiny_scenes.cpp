@@ -99,6 +99,7 @@ TinyScene every_term() {
   Scene scene = poured_bed(90, {8, 6, 9}, {4, 3, 12});
   scene.bed.sides[1] = Side::wall;
   scene.bed.grains.rolling_friction = 0.1;
+  scene.bed.fluid.viscosity = 2e-6;   // strong shear: lifts beyond their laws
   Terms& terms = scene.terms;
   terms.self_disturbance = terms.added_mass = terms.shear_lift = terms.magnus = terms.viscous_torque = true;
   terms.wall_forces = terms.wet_restitution = terms.exposure = terms.turbulence = true;

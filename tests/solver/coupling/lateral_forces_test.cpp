@@ -149,7 +149,7 @@ TEST(LiftForce, NeverGrowsHoweverStiffTheStep) {
     Vec3 slip{1e-6, 0, 0}, free_slip = slip;
     for (int step = 0; step < 200; ++step) {
       const Vec3 k = saffman_mei(slip, vorticity_of_shear(rate), d, nu);
-      slip = slip_after_a_step(slip, lift_force(slip, k, drag), drag, a);
+      slip = slip_after_a_step(slip, cross(slip, limited_lift(k, drag)), drag, a);
       const Vec3 uncut = cross(free_slip, saffman_mei(free_slip, vorticity_of_shear(rate), d, nu));
       free_slip = slip_after_a_step(free_slip, uncut, drag, a);
     }
@@ -164,13 +164,13 @@ TEST(LiftForce, IsNotCutWithinTheRangeOfTheLaws) {
     for (const double b : {0.005, 0.1, 0.4}) {
       const Vec3 slip{re * nu / d, 0, 0}, vorticity = vorticity_of_shear(2 * b * slip.x / d);
       const double drag = 3 * pi * nu * d * SchillerNaumann{}.multiplier(1, re);
-      EXPECT_EQ(lift_force(slip, saffman_mei(slip, vorticity, d, nu), drag), saffman_force(slip, vorticity));
+      EXPECT_EQ(cross(slip, limited_lift(saffman_mei(slip, vorticity, d, nu), drag)), saffman_force(slip, vorticity));
     }
   for (double re = 1e-3; re < 200; re *= 1.5) {   // at rest on a wall
     const Vec3 slip{re * nu / d, 0, 0}, vorticity = vorticity_of_shear(2 * slip.x / d);
     const Vec3 k = shear_lift_near_wall(slip, vorticity, vorticity, d, nu, 0.5 * d);
     const double drag = 3 * pi * nu * d * SchillerNaumann{}.multiplier(1, re);
-    EXPECT_EQ(lift_force(slip, k, drag), cross(slip, k)) << re;
+    EXPECT_EQ(cross(slip, limited_lift(k, drag)), cross(slip, k)) << re;
   }
 }
 
