@@ -29,9 +29,10 @@ double common_volume(double large, double small, double far) {
 }
 
 /// Packing density of the other grains within two diameters of each grain, in the space that it leaves; a wall is empty.
-class Surroundings {
+class Neighbourhoods {
  public:
-  Surroundings(const StaggeredGrid& grid, const Grains& grains) : grid_(grid), grains_(grains), order_(grains.size()) {
+  Neighbourhoods(const StaggeredGrid& grid, const Grains& grains)
+      : grid_(grid), grains_(grains), order_(grains.size()) {
     for (std::size_t n = 0; n < order_.size(); ++n) order_[n] = n;
     std::ranges::stable_sort(order_, {}, [&](std::size_t n) { return grains.position[n].x; });
     largest_ = *std::ranges::max_element(grains.diameter);
@@ -88,7 +89,7 @@ double nearness_of(const Scene& scene, const Grains& grains, std::size_t n) {
 
 void count_table(const Scene& scene, GrainCensus& census) {
   const Grains grains = place_grains(scene.bed);
-  const auto around = Surroundings(scene.grid, grains).packing();
+  const auto around = Neighbourhoods(scene.grid, grains).packing();
   census.smallest = *std::ranges::min_element(grains.diameter);
   for (std::size_t n = 0; n < grains.size(); ++n) {
     census.mobile |= !grains.fixed[n];
