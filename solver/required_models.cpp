@@ -29,20 +29,9 @@ constexpr double near_wall = 0.05;         // a/z
 constexpr double own_flow = 0.01;          // kappa: 1 % of a speed; d/h = 0.015 in slow flow
 constexpr double loss_per_stokes = 35;     // ln of the restitution a film takes is 35/St
 
-/// What every rule reads.
-struct Facts {
-  const Scene& scene;
-  GrainCensus grains;
-  SceneNumbers n;
-  double diameter() const { return scene.bed.grains.diameter; }
-  double edge() const { return std::cbrt(scene.grid.cell_volume()); }
-  bool sheared() const { return grains.any && !std::isnan(n.shear_rate); }
-  bool steep() const { return norm2(scene.bed.gravity) > 0; }
-};
-
 std::string_view side(bool above) { return above ? ">" : "<="; }
 
-ModelChoice drag(const Facts& f) {
+ModelChoice drag(const SceneFacts& f) {
   const double loading = f.grains.any ? f.n.solid_fraction * f.n.density_ratio : 0;
   const auto why =
       loading > two_way_loading
@@ -54,7 +43,7 @@ ModelChoice drag(const Facts& f) {
       .reason = fmt::format("{}, by the law of {}; without it the flow moves no grain", why, name_of(f.scene.drag))};
 }
 
-ModelChoice buoyancy(const Facts& f) {
+ModelChoice buoyancy(const SceneFacts& f) {
   const double share = 1 / f.n.density_ratio;
   return {.wanted = f.grains.any,
           .ratio = share,
@@ -63,9 +52,9 @@ ModelChoice buoyancy(const Facts& f) {
 }
 
 /// Both halves of Model A by one rule: fluid that accelerates as grains do, |Du/Dt| ~ g, pushes them by V rho_f Du/Dt.
-double unsteady_ratio(const Facts& f) { return 1 / std::abs(f.n.density_ratio - 1); }
+double unsteady_ratio(const SceneFacts& f) { return 1 / std::abs(f.n.density_ratio - 1); }
 
-ModelChoice pressure_gradient(const Facts& f) {
+ModelChoice pressure_gradient(const SceneFacts& f) {
   const double ratio = unsteady_ratio(f);
   return {.wanted = f.grains.any && ratio > unsteady_share,
           .ratio = ratio,
@@ -74,7 +63,7 @@ ModelChoice pressure_gradient(const Facts& f) {
                                 ratio, side(ratio > unsteady_share), unsteady_share)};
 }
 
-ModelChoice viscous_stress(const Facts& f) {
+ModelChoice viscous_stress(const SceneFacts& f) {
   const double ratio = unsteady_ratio(f);
   return {.wanted = f.grains.any && ratio > unsteady_share,
           .ratio = ratio,
@@ -84,11 +73,11 @@ ModelChoice viscous_stress(const Facts& f) {
 }
 
 /// What is known of a grain's own flow is known for the kernel as it is.
-bool widened(const Facts& f) { return f.scene.smoothing != Smoothing{}; }
+bool widened(const SceneFacts& f) { return f.scene.smoothing != Smoothing{}; }
 constexpr auto not_widened =
     "the grid's response to a lone grain is not known for a kernel widened by models.smoothing";
 
-ModelChoice self_disturbance(const Facts& f) {
+ModelChoice self_disturbance(const SceneFacts& f) {
   if (widened(f)) return {.ratio = no_number, .reason = not_widened};
   const double share = f.n.self_response;
   if (loneness(f.grains.loosest) == 0)
@@ -104,7 +93,7 @@ ModelChoice self_disturbance(const Facts& f) {
               share, side(share > own_flow), own_flow, f.edge() / f.diameter(), worth)};
 }
 
-ModelChoice added_mass(const Facts& f) {
+ModelChoice added_mass(const SceneFacts& f) {
   const double share = lone_added_mass / (f.n.density_ratio + lone_added_mass);
   return {.wanted = f.grains.mobile && f.n.density_ratio < light_grain,
           .ratio = share,
@@ -119,7 +108,7 @@ ModelChoice not_sheared(const std::string& what) {
   return {.ratio = 0, .reason = fmt::format("no shear over bed or bottom: {} = 0", what)};
 }
 
-ModelChoice shear_lift(const Facts& f) {
+ModelChoice shear_lift(const SceneFacts& f) {
   if (!f.sheared()) return not_sheared("1.10 theta Re_g");
   const double ratio = f.n.lift_per_weight, re = f.n.shear_reynolds;
   return {.wanted = re > slow_shear && ratio > share_of_weight,
@@ -131,9 +120,9 @@ ModelChoice shear_lift(const Facts& f) {
 }
 
 /// A surface grain that does not turn yet, at half a diameter from the bed.
-ModelChoice magnus(const Facts& f) {
+ModelChoice magnus(const SceneFacts& f) {
   if (!f.sheared()) return not_sheared("spin against the fluid");
-  const double d = f.diameter(), nu = f.scene.bed.fluid.viscosity, shear = f.n.shear_rate;
+  const double d = f.diameter(), nu = f.viscosity(), shear = f.n.shear_rate;
   const Vec3 slip{0.5 * shear * d, 0, 0}, spin{0, -0.5 * shear, 0};
   const double spin_ratio = norm(spin) * d / (2 * norm(slip)), re = norm(slip) * d / nu;
   const double weight = std::abs(f.n.density_ratio - 1) * norm(f.scene.bed.gravity) * sphere_volume(d);
@@ -147,7 +136,7 @@ ModelChoice magnus(const Facts& f) {
                                 side(re > inertial), inertial)};
 }
 
-ModelChoice viscous_torque(const Facts& f) {
+ModelChoice viscous_torque(const SceneFacts& f) {
   if (!f.sheared()) return not_sheared("6 theta");
   const double ratio = f.n.torque_per_weight;
   return {
@@ -158,7 +147,7 @@ ModelChoice viscous_torque(const Facts& f) {
                             ratio, side(ratio > share_of_weight), share_of_weight)};
 }
 
-ModelChoice wall_forces(const Facts& f) {
+ModelChoice wall_forces(const SceneFacts& f) {
   if (widened(f)) return {.ratio = no_number, .reason = not_widened};
   const double k = f.grains.nearness, ratio = 9.0 / 16 * k;
   if (k == 0)
@@ -175,7 +164,7 @@ ModelChoice wall_forces(const Facts& f) {
 }
 
 /// Both film models; of the two, the one that is on, else restitution, which costs nothing.
-ModelChoice film(const Facts& f, bool chosen, std::string_view other) {
+ModelChoice film(const SceneFacts& f, bool chosen, std::string_view other) {
   const double st = f.n.impact_stokes, share = st > 0 ? 1 - std::exp(-loss_per_stokes / st) : 1;
   const bool wet = f.grains.collide && st < dry_impact && st > 0;
   auto why = !f.grains.collide ? std::string("nothing collides")
@@ -185,17 +174,17 @@ ModelChoice film(const Facts& f, bool chosen, std::string_view other) {
   why += chosen ? "; without it collisions rebound as dry ones" : fmt::format("; {} stands for it", other);
   return {.wanted = wet && chosen, .ratio = f.grains.collide && st > 0 ? share : no_number, .reason = why};
 }
-ModelChoice wet_restitution(const Facts& f) { return film(f, !f.scene.terms.lubrication, "lubrication"); }
-ModelChoice lubrication(const Facts& f) { return film(f, f.scene.terms.lubrication, "wet_restitution"); }
+ModelChoice wet_restitution(const SceneFacts& f) { return film(f, !f.scene.terms.lubrication, "lubrication"); }
+ModelChoice lubrication(const SceneFacts& f) { return film(f, f.scene.terms.lubrication, "wet_restitution"); }
 
-ModelChoice exposure(const Facts& f) {
+ModelChoice exposure(const SceneFacts& f) {
   return {.ratio = no_number,
           .reason = f.grains.bed ? "an empirical factor for surface grains that stand out: only where a list names it; "
                                    "without it theta_c of random beds comes out too high"
                                  : "no bed to stand out of"};
 }
 
-ModelChoice turbulence(const Facts& f) {
+ModelChoice turbulence(const SceneFacts& f) {
   const auto& n = f.n;
   if (std::isnan(n.gap_reynolds)) return not_sheared("gap Reynolds number");
   const bool wild = is_turbulent(f.scene, n);
@@ -212,7 +201,7 @@ ModelChoice turbulence(const Facts& f) {
                             wild ? "turbulent; without it laminar is assumed, against the numbers" : "laminar indeed")};
 }
 
-ModelChoice rolling_friction(const Facts& f) {
+ModelChoice rolling_friction(const SceneFacts& f) {
   const double mu = f.scene.bed.grains.rolling_friction;
   return {
       .term = "rolling_friction",
@@ -224,7 +213,7 @@ ModelChoice rolling_friction(const Facts& f) {
 
 struct Rule {
   std::string_view term;
-  ModelChoice (*judge)(const Facts&);
+  ModelChoice (*judge)(const SceneFacts&);
 };
 constexpr Rule rules[] = {{"drag", drag},
                           {"buoyancy", buoyancy},
@@ -253,16 +242,14 @@ std::string with_ratio(const ModelChoice& m) {
 
 }   // namespace
 
-std::vector<ModelChoice> required_models(const Scene& scene) {
-  const auto census = census_of(scene);
-  const Facts facts{scene, census, numbers_of(scene, census)};
+std::vector<ModelChoice> required_models(const SceneFacts& facts) {
   std::vector<ModelChoice> models;
   for (const auto& rule : rules) {
     const bool of_grains = rule.term != "turbulence";
     auto& m = models.emplace_back();
     if (facts.grains.any || !of_grains) m = rule.judge(facts);
     else m.ratio = no_number, m.reason = without_grains;
-    m.term = rule.term, m.on = scene.terms.*member(rule.term);
+    m.term = rule.term, m.on = facts.scene.terms.*member(rule.term);
   }
   if (facts.grains.any) models.push_back(rolling_friction(facts));
   return models;
@@ -277,17 +264,17 @@ Terms wanted_terms(const Scene& scene) {
   return wanted;
 }
 
-std::vector<std::string> warnings_of(const Scene& scene) {
+std::vector<std::string> warnings_of(const SceneFacts& facts) {
   std::vector<std::string> warnings;
-  for (const auto& problem : range_problems_of(scene)) warnings.push_back(problem.message);
-  const bool dry = std::ranges::none_of(named_terms, [&](const NamedTerm& t) { return scene.terms.*t.term; });
-  if (dry && census_of(scene).any) {
+  for (const auto& problem : range_problems_of(facts)) warnings.push_back(problem.message);
+  const bool dry = std::ranges::none_of(named_terms, [&](const NamedTerm& t) { return facts.scene.terms.*t.term; });
+  if (dry && facts.grains.any) {
     warnings.push_back(
         "terms = []: the grains are dry; no term joins them to the fluid, which only makes room for them");
     return warnings;
   }
   std::string left_out;
-  for (const auto& m : required_models(scene))
+  for (const auto& m : required_models(facts))
     if (m.wanted && !m.on) left_out += (left_out.empty() ? "" : ", ") + with_ratio(m);
   if (!left_out.empty())
     warnings.push_back(

@@ -18,13 +18,13 @@ struct ModelChoice {
 
 /// The decision for every term (docs/physics.md). Asks for nothing that the scene cannot carry; of wet_restitution and
 /// lubrication, which are alternatives, for one; never for exposure.
-std::vector<ModelChoice> required_models(const Scene&);
+std::vector<ModelChoice> required_models(const SceneFacts&);
 
 /// The terms that the rules want: what terms = "auto" stands for. Does not depend on scene.terms, nor on how far a ramp goes.
 Terms wanted_terms(const Scene&);
 
 /// What a reader of the results must be told: the scene is outside a model's range (range_problems_of), terms are wanted but
 /// off, nothing joins grains and fluid. Empty if nothing.
-std::vector<std::string> warnings_of(const Scene&);
+std::vector<std::string> warnings_of(const SceneFacts&);
 
 }   // namespace bedload

@@ -1,6 +1,7 @@
 // The dimensionless numbers of a scene: what the rules for models and the warnings read.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "solver/scene.hpp"
@@ -56,6 +57,22 @@ inline constexpr double quoted_shields = 0.2;
 
 SceneNumbers numbers_of(const Scene&, const GrainCensus&);
 inline SceneNumbers numbers_of(const Scene& scene) { return numbers_of(scene, census_of(scene)); }
+
+/// What rules and range checks read, found once: a scene stands for its facts wherever they are asked for, and who asks twice
+/// makes them first. The scene must outlive them.
+struct SceneFacts {
+  SceneFacts(const Scene& of) : scene(of), grains(census_of(of)), n(numbers_of(of, grains)) {}
+  const Scene& scene;
+  GrainCensus grains;
+  SceneNumbers n;
+
+  double diameter() const { return scene.bed.grains.diameter; }
+  double viscosity() const { return scene.bed.fluid.viscosity; }
+  double edge() const { return std::cbrt(scene.grid.cell_volume()); }
+  /// Grains in a flow that shears the box.
+  bool sheared() const { return grains.any && !std::isnan(n.shear_rate); }
+  bool sheared_bed() const { return grains.bed && sheared(); }
+};
 
 /// True where a flow shears the box between bottom and top.
 bool is_sheared(const Scene&);

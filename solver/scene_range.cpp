@@ -10,7 +10,6 @@
 #include "solver/dimensionless.hpp"
 #include "solver/expected_bed.hpp"
 #include "solver/grains/bed_packing.hpp"
-#include "solver/scene_numbers.hpp"
 
 namespace bedload {
 
@@ -30,16 +29,7 @@ constexpr double repose = 25 * std::numbers::pi / 180;   // of smooth spheres 22
 constexpr double soft_overlap = 0.01;                    // of d
 constexpr double lift_reynolds = 200, spin_reynolds = 140;
 
-struct Facts {
-  const Scene& scene;
-  GrainCensus grains;
-  SceneNumbers n;
-  double diameter() const { return scene.bed.grains.diameter; }
-  double viscosity() const { return scene.bed.fluid.viscosity; }
-  bool sheared_bed() const { return grains.bed && !std::isnan(n.shear_rate); }
-};
-
-void laminar_assumed(const Facts& f, Found& found) {
+void laminar_assumed(const SceneFacts& f, Found& found) {
   if (f.scene.terms.turbulence || !is_turbulent(f.scene, f.n)) return;
   const auto& n = f.n;
   const auto speed = f.scene.drive.kind == Kind::lid ? "lid speed" : "mean speed";
@@ -54,7 +44,7 @@ void laminar_assumed(const Facts& f, Found& found) {
        "a more viscous liquid or smaller grains make it laminar; the term turbulence models it"});
 }
 
-void drag_law_reynolds(const Facts& f, Found& found) {
+void drag_law_reynolds(const SceneFacts& f, Found& found) {
   const auto range = range_of(f.scene.drag);
   if (!f.scene.terms.drag || !(f.n.grain_reynolds > range.highest_re)) return;
   found.push_back({"models.drag",
@@ -63,7 +53,7 @@ void drag_law_reynolds(const Facts& f, Found& found) {
                    "another law (docs/physics_coupling.md lists their ranges), or a slower flow"});
 }
 
-void drag_law_packing(const Facts& f, Found& found) {
+void drag_law_packing(const SceneFacts& f, Found& found) {
   if (!f.grains.any || !f.scene.terms.drag) return;
   const auto range = range_of(f.scene.drag);
   const double dense = 1 - f.grains.densest, loose = 1 - f.grains.loosest;
@@ -83,7 +73,7 @@ void drag_law_packing(const Facts& f, Found& found) {
          "gidaspow is ergun in the bed and Wen and Yu above it"});
 }
 
-void small_grains(const Facts& f, Found& found) {
+void small_grains(const SceneFacts& f, Found& found) {
   if (!f.grains.mobile) return;
   const double d = f.grains.smallest;
   const double weight =
@@ -104,18 +94,17 @@ void small_grains(const Facts& f, Found& found) {
          "larger or heavier grains"});
 }
 
-void cells_and_lone_grains(const Facts& f, Found& found) {
+void cells_and_lone_grains(const SceneFacts& f, Found& found) {
   if (!f.scene.terms.self_disturbance || f.grains.bed || !(f.n.self_response > largest_response)) return;
   found.push_back(
       {"box.cell.xy",
        fmt::format("cells of {:.2g} d on average are small for lone grains: kappa = {:.2g} of their drag comes "
                    "back as flow, and its correction is trusted up to {:g}",
-                   std::cbrt(f.scene.grid.cell_volume()) / f.diameter(), f.n.self_response, largest_response),
-       fmt::format("cells of at least {:.2g} d",
-                   std::cbrt(f.scene.grid.cell_volume()) / f.diameter() * f.n.self_response / largest_response)});
+                   f.edge() / f.diameter(), f.n.self_response, largest_response),
+       fmt::format("cells of at least {:.2g} d", f.edge() / f.diameter() * f.n.self_response / largest_response)});
 }
 
-void cells_at_a_bed(const Facts& f, Found& found) {
+void cells_at_a_bed(const SceneFacts& f, Found& found) {
   if (!f.sheared_bed()) return;
   const double h = f.scene.grid.h.z;
   if (h > cell_at_a_bed * f.diameter())
@@ -132,7 +121,7 @@ void cells_at_a_bed(const Facts& f, Found& found) {
          "flatter cells, or a higher box"});
 }
 
-void slope(const Facts& f, Found& found) {
+void slope(const SceneFacts& f, Found& found) {
   const auto& g = f.scene.bed.gravity;
   const double tilt = std::atan2(std::abs(g.x), std::abs(g.z));
   if (!f.grains.bed || !f.grains.mobile || !(tilt > repose)) return;
@@ -145,7 +134,7 @@ void slope(const Facts& f, Found& found) {
        "a gentler slope, unless an avalanche is wanted"});
 }
 
-void depth(const Facts& f, Found& found) {
+void depth(const SceneFacts& f, Found& found) {
   if (!f.sheared_bed() || !needs_settling(f.scene.bed) || f.n.bed_depth >= shallow_bed) return;
   found.push_back({"bed.count",
                    fmt::format("a bed {:.2g} d deep feels the flat bottom: creep reaches some {:g} d down",
@@ -154,7 +143,7 @@ void depth(const Facts& f, Found& found) {
 }
 
 /// What a hold must outlast: viscosity's way over a diameter (the rest of the flow is laid on), or over the whole gap.
-void holds(const Facts& f, Found& found) {
+void holds(const SceneFacts& f, Found& found) {
   if (!is_sheared(f.scene) || f.scene.onset.method != Onset::Method::ramp) return;
   const double d = f.diameter(), pi = std::numbers::pi;
   const double settle = f.scene.developed ? d * d / f.viscosity() : f.n.gap * f.n.gap / (pi * pi * f.viscosity());
@@ -168,7 +157,7 @@ void holds(const Facts& f, Found& found) {
 }
 
 /// Overlap at the bottom, (G14): delta/d = [(pi/2) (1 - nu^2) N (rho_p - rho_f) g d/Y]^(2/3).
-void stiffness(const Facts& f, Found& found) {
+void stiffness(const SceneFacts& f, Found& found) {
   const auto& bed = f.scene.bed;
   const auto& g = bed.grains;
   if (!needs_settling(bed) || !(g.young_modulus > 0)) return;
@@ -184,7 +173,7 @@ void stiffness(const Facts& f, Found& found) {
        "\"auto\", or a larger modulus"});
 }
 
-void laws_of_lift(const Facts& f, Found& found) {
+void laws_of_lift(const SceneFacts& f, Found& found) {
   const double re = f.n.grain_reynolds;
   const auto beyond = [&](bool on, const char* term, double limit) {
     if (on && re > limit)
@@ -196,7 +185,7 @@ void laws_of_lift(const Facts& f, Found& found) {
   beyond(f.scene.terms.magnus, "magnus", spin_reynolds);
 }
 
-void idle_drive(const Facts& f, Found& found) {
+void idle_drive(const SceneFacts& f, Found& found) {
   const auto kind = f.scene.drive.kind;
   if (f.grains.mobile && !f.scene.terms.drag &&
       (kind == Kind::lid || kind == Kind::pressure || kind == Kind::through_flow))
@@ -206,9 +195,7 @@ void idle_drive(const Facts& f, Found& found) {
 
 }   // namespace
 
-std::vector<SceneProblem> range_problems_of(const Scene& scene) {
-  const auto census = census_of(scene);
-  const Facts facts{scene, census, numbers_of(scene, census)};
+std::vector<SceneProblem> range_problems_of(const SceneFacts& facts) {
   Found found;
   for (const auto check : {laminar_assumed, drag_law_reynolds, drag_law_packing, small_grains, cells_and_lone_grains,
                            cells_at_a_bed, slope, depth, holds, stiffness, laws_of_lift, idle_drive})

@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "solver/scene.hpp"
+#include "solver/scene_numbers.hpp"
 
 namespace bedload {
 
 /// Nothing here stops a run: the numbers come out, for a model that does not hold. Each names the parameter to blame, the
 /// fact with its limit, and what would be inside. With models.strict they are errors. docs/physics.md, section 3.
-std::vector<SceneProblem> range_problems_of(const Scene&);
+std::vector<SceneProblem> range_problems_of(const SceneFacts&);
 
 }   // namespace bedload
