@@ -120,12 +120,18 @@ TEST(RequiredModels, OfABoxWithoutGrains) {
 }
 
 TEST(RequiredModels, DoNotDependOnTheEndOfTheRamp) {
-  auto longer = erosion_in_water();
-  longer.drive.levels.push_back(2.4);
-  const auto a = required_models(erosion_in_water()), b = required_models(longer);
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t n = 0; n < a.size(); ++n)
-    EXPECT_TRUE(a[n].ratio == b[n].ratio || std::isnan(a[n].ratio)) << a[n].term;
+  for (const auto& scene : {erosion_in_water(), laminar_bed()}) {
+    auto longer = scene;
+    longer.drive.levels.push_back(2.4);
+    EXPECT_EQ(wanted_terms(longer), wanted_terms(scene));
+    const auto a = required_models(scene), b = required_models(longer);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t n = 0; n < a.size(); ++n) {
+      EXPECT_EQ(a[n].wanted, b[n].wanted) << a[n].term;
+      EXPECT_EQ(std::isnan(a[n].ratio), std::isnan(b[n].ratio)) << a[n].term;
+      EXPECT_TRUE(a[n].ratio == b[n].ratio || std::isnan(a[n].ratio)) << a[n].term;
+    }
+  }
 }
 
 TEST(RequiredModels, CountTheFirstLevelWhereItIsAboveOnset) {
