@@ -34,6 +34,17 @@ double shear_of_level(Scene scene, std::size_t level, double height, double gap)
   return std::abs(flow.gradient) * (scene.bed.top == Top::free_slip ? gap : gap / 2) / scene.bed.fluid.viscosity;
 }
 
+/// The levels of the weakest and of the strongest flow: a ramp may go down, or turn round.
+struct LevelRange {
+  std::size_t weakest, strongest;
+};
+LevelRange range_of_levels(const FlowRamp& drive) {
+  const auto& levels = drive.levels;
+  const auto size = [](double level) { return std::abs(level); };
+  const auto [low, high] = std::ranges::minmax_element(levels, {}, size);
+  return {static_cast<std::size_t>(low - levels.begin()), static_cast<std::size_t>(high - levels.begin())};
+}
+
 double shields_of_shear(const Scene& scene, double shear) {
   const double weight = weight_per_mass(scene);
   return weight > 0 ? scene.bed.fluid.viscosity * shear / (weight * scene.bed.grains.diameter) : no_number;
@@ -75,8 +86,8 @@ void flow_numbers(const Scene& scene, const GrainCensus& census, SceneNumbers& n
   if (census.any) {
     const double first_shields = shields_of_shear(scene, first);
     const auto imposed = [&](std::size_t level) { return std::abs(imposed_flow(scene, level, height).shields); };
-    if (weight_per_mass(scene) > 0)
-      n.lowest_shields = imposed(0), n.highest_shields = imposed(scene.drive.levels.size() - 1);
+    const auto [weakest, strongest] = range_of_levels(scene.drive);
+    if (weight_per_mass(scene) > 0) n.lowest_shields = imposed(weakest), n.highest_shields = imposed(strongest);
     if (census.bed && census.mobile && first_shields < quoted_shields)
       n.shear_rate = quoted_shields * weight_per_mass(scene) * d / nu;
     n.shields = shields_of_shear(scene, n.shear_rate);
@@ -98,7 +109,8 @@ double largest_slip(const Scene& scene, const GrainCensus& census, const SceneNu
   if (census.mobile && !std::isnan(n.settling_speed)) slip = std::max(slip, n.settling_speed);
   if (!std::isnan(n.shear_rate)) {
     const double height = n.bed_depth * d;
-    const double shear = std::max(n.shear_rate, shear_of_level(scene, scene.drive.levels.size() - 1, height, n.gap));
+    const double highest = shear_of_level(scene, range_of_levels(scene.drive).strongest, height, n.gap);
+    const double shear = std::max(n.shear_rate, highest);
     const double friction_speed = std::sqrt(nu * shear);
     const double in_wall_units = 0.5 * friction_speed * d / nu;   // u+ at the centre of a surface grain, laminar
     slip = std::max(

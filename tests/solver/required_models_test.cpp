@@ -77,6 +77,22 @@ TEST(RequiredModels, QuoteTheFlowAtTheShieldsNumberOfOnset) {
   EXPECT_NEAR(n.lowest_shields, 0.03, 1e-12);
 }
 
+// A ramp may go down, or turn round.
+TEST(RequiredModels, QuoteTheWeakestAndTheStrongestFlowInWhateverOrder) {
+  auto scene = laminar_bed();
+  scene.drive.levels = {1, 2};
+  const auto up = numbers_of(scene);
+  scene.drive.levels = {2, 1};
+  const auto down = numbers_of(scene);
+  EXPECT_NEAR(down.lowest_shields, 1, 1e-12);
+  EXPECT_NEAR(down.highest_shields, 2, 1e-12);
+  scene.drive.levels = {1, -2, 1.5};
+  const auto reversed = numbers_of(scene);
+  EXPECT_NEAR(reversed.lowest_shields, 1, 1e-12);
+  EXPECT_NEAR(reversed.highest_shields, 2, 1e-12);
+  EXPECT_EQ(reversed.grain_reynolds, up.grain_reynolds);
+}
+
 TEST(RequiredModels, CallALaminarSceneInWaterUnphysical) {
   auto scene = erosion_in_water();
   EXPECT_TRUE(choice(scene, "turbulence").wanted);
