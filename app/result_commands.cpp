@@ -12,6 +12,7 @@
 #include "base/log.hpp"
 #include "checkpoint/checkpoint_series.hpp"
 #include "scheduler/attempt.hpp"
+#include "solver/dimensionless.hpp"
 #include "studies/case_file.hpp"
 #include "studies/report.hpp"
 #include "studies/study_directory.hpp"
@@ -25,13 +26,13 @@ constexpr std::size_t most_pictures = 4;
 
 BedView view_of(const CaseEntry& entry, const CaseDirectory& one, State state) {
   const auto& bed = one.scene.bed;
-  const double reduced_gravity = (bed.grains.density / bed.fluid.density - 1) * norm(bed.gravity);
+  const double weight = reduced_gravity(bed.grains.density / bed.fluid.density, norm(bed.gravity));
   return {.label = entry.label,
           .moment = fmt::format("after hold {}, theta = {:.3g}", state.record.holds.hold.size(), state.search.shields),
           .grains = std::move(state.grains),
           .length = bed.length,
           .diameter = bed.grains.diameter,
-          .speed_scale = std::sqrt(std::max(0.0, reduced_gravity) * bed.grains.diameter)};
+          .speed_scale = std::sqrt(weight * bed.grains.diameter)};
 }
 
 /// A case as it stands in its newest whole checkpoint; nothing if it has none.

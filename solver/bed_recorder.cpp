@@ -21,7 +21,7 @@ double density_ratio(const Scene& scene) { return scene.bed.grains.density / sce
 
 double speed_scale_of(const Scene& scene) {
   const double weight = reduced_gravity(density_ratio(scene), norm(scene.bed.gravity));
-  return std::sqrt(std::max(0.0, weight * scene.bed.grains.diameter));
+  return std::sqrt(weight * scene.bed.grains.diameter);
 }
 
 double grain_time_of(const Scene& scene) {

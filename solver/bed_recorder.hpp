@@ -34,7 +34,7 @@ class BedRecorder {
   const Scene scene_;
   const double area_;             // of the box, seen from above [m2]
   const double stress_scale_;     // (rho_p - rho_f) g d [Pa]
-  const double speed_scale_;      // sqrt((s-1) g d) [m/s]
+  const double speed_scale_;      // sqrt(|s-1| g d) [m/s]
   const double surface_grains_;   // N_s [-]
   const double grain_time_;       // t_d [s]
 

@@ -9,6 +9,7 @@
 #include "solver/coupling/drag_laws.hpp"
 #include "solver/coupling/lateral_forces.hpp"
 #include "solver/coupling/packing_of_others.hpp"
+#include "solver/dimensionless.hpp"
 #include "solver/grains/grains.hpp"
 #include "solver/scene_range.hpp"
 
@@ -124,8 +125,8 @@ ModelChoice magnus(const SceneFacts& f) {
   if (!f.sheared()) return not_sheared("spin against the fluid");
   const double d = f.diameter(), nu = f.viscosity(), shear = f.n.shear_rate;
   const Vec3 slip{0.5 * shear * d, 0, 0}, spin{0, -0.5 * shear, 0};
-  const double spin_ratio = norm(spin) * d / (2 * norm(slip)), re = norm(slip) * d / nu;
-  const double weight = std::abs(f.n.density_ratio - 1) * norm(f.scene.bed.gravity) * sphere_volume(d);
+  const double spin_ratio = norm(spin) * d / (2 * norm(slip)), re = reynolds_number(norm(slip), d, nu);
+  const double weight = reduced_gravity(f.n.density_ratio, norm(f.scene.bed.gravity)) * sphere_volume(d);
   const double ratio = norm(cross(slip, bedload::magnus(slip, spin, d, nu))) / weight;
   return {.wanted =
               f.grains.mobile && f.grains.may_turn && spin_ratio > spinning && re > inertial && ratio > share_of_weight,

@@ -21,9 +21,10 @@ constexpr double couette_transition = 1300;   // U h/nu beyond which a Couette f
 constexpr double channel_transition = 1500;   // of the mean speed, between plates
 constexpr double log_law_at_the_top = 8.5;    // u+ at a rough bed's grains, Nikuradse
 
+double density_ratio(const Scene& scene) { return scene.bed.grains.density / scene.bed.fluid.density; }
+
 double weight_per_mass(const Scene& scene) {   // submerged, per mass of fluid [m/s2]
-  const double s = scene.bed.grains.density / scene.bed.fluid.density;
-  return std::abs(s - 1) * norm(scene.bed.gravity);
+  return reduced_gravity(density_ratio(scene), norm(scene.bed.gravity));
 }
 
 /// Shear rate at the bed or bottom that a level of the drive means in laminar flow, whether turbulence is on or not [1/s].
@@ -45,9 +46,18 @@ LevelRange range_of_levels(const FlowRamp& drive) {
   return {static_cast<std::size_t>(low - levels.begin()), static_cast<std::size_t>(high - levels.begin())};
 }
 
+/// Of the viscous stress at that shear rate; infinite without submerged weight.
 double shields_of_shear(const Scene& scene, double shear) {
-  const double weight = weight_per_mass(scene);
-  return weight > 0 ? scene.bed.fluid.viscosity * shear / (weight * scene.bed.grains.diameter) : no_number;
+  const auto& fluid = scene.bed.fluid;
+  const double stress = fluid.density * fluid.viscosity * shear;
+  return shields_number(stress, fluid.density, density_ratio(scene), norm(scene.bed.gravity),
+                        scene.bed.grains.diameter);
+}
+double shear_of_shields(const Scene& scene, double shields) {
+  const auto& fluid = scene.bed.fluid;
+  const double stress = stress_of_shields(shields, fluid.density, density_ratio(scene), norm(scene.bed.gravity),
+                                          scene.bed.grains.diameter);
+  return stress / (fluid.density * fluid.viscosity);
 }
 
 /// kappa at the speed of fall. A grain that moves leaves its own flow behind: the Oseen factor of a force spread over a width
@@ -65,11 +75,11 @@ double self_response(const Scene& scene, double speed) {
 void grain_numbers(const Scene& scene, SceneNumbers& n) {
   const auto& bed = scene.bed;
   const double d = bed.grains.diameter, nu = bed.fluid.viscosity, g = norm(bed.gravity);
-  n.density_ratio = bed.grains.density / bed.fluid.density;
+  n.density_ratio = density_ratio(scene);
   const double weight = weight_per_mass(scene);
   const double box = bed.length.x * bed.length.y * bed.length.z;
   if (weight > 0) {
-    n.galileo = std::sqrt(weight * d * d * d) / nu;
+    n.galileo = galileo_number(n.density_ratio, g, d, nu);
     n.settling_speed = terminal_speed(scene.drag, nu, n.density_ratio, d, g);
     n.settling_reynolds = reynolds_number(n.settling_speed, d, nu);
     if (n.density_ratio > 1) n.grain_time = grain_time(d, n.density_ratio, g, n.settling_speed);
@@ -84,18 +94,18 @@ void flow_numbers(const Scene& scene, const GrainCensus& census, SceneNumbers& n
   const double first = shear_of_level(scene, 0, height, n.gap);
   n.shear_rate = first;
   if (census.any) {
-    const double first_shields = shields_of_shear(scene, first);
+    const bool heavy = weight_per_mass(scene) > 0;
     const auto imposed = [&](std::size_t level) { return std::abs(imposed_flow(scene, level, height).shields); };
     const auto [weakest, strongest] = range_of_levels(scene.drive);
-    if (weight_per_mass(scene) > 0) n.lowest_shields = imposed(weakest), n.highest_shields = imposed(strongest);
-    if (census.bed && census.mobile && first_shields < quoted_shields)
-      n.shear_rate = quoted_shields * weight_per_mass(scene) * d / nu;
-    n.shields = shields_of_shear(scene, n.shear_rate);
-    n.friction_reynolds = std::sqrt(n.shear_rate / nu) * d;
-    n.shear_reynolds = n.shear_rate * d * d / nu;
-    const double weight = weight_per_mass(scene);
-    n.lift_per_weight = 1.10 * n.shear_rate * n.shear_rate * d / weight;
-    n.torque_per_weight = 6 * n.shear_rate * nu / (weight * d);
+    if (heavy) n.lowest_shields = imposed(weakest), n.highest_shields = imposed(strongest);
+    if (census.bed && census.mobile && shields_of_shear(scene, first) < quoted_shields)
+      n.shear_rate = shear_of_shields(scene, quoted_shields);
+    const double shields = shields_of_shear(scene, n.shear_rate);
+    if (heavy) n.shields = shields;
+    n.friction_reynolds = reynolds_number(std::sqrt(nu * n.shear_rate), d, nu);
+    n.shear_reynolds = shear_reynolds_number(n.shear_rate, d, nu);
+    n.lift_per_weight = 1.10 * shields * n.shear_reynolds;
+    n.torque_per_weight = 6 * shields;
   }
   const bool lid = scene.drive.kind == Kind::lid;
   n.flow_speed = n.shear_rate * n.gap / (lid ? 1 : bed.top == Top::free_slip ? 3 : 6);

@@ -76,8 +76,8 @@ void drag_law_packing(const SceneFacts& f, Found& found) {
 void small_grains(const SceneFacts& f, Found& found) {
   if (!f.grains.mobile) return;
   const double d = f.grains.smallest;
-  const double weight =
-      std::abs(f.scene.bed.grains.density - f.scene.bed.fluid.density) * norm(f.scene.bed.gravity) * sphere_volume(d);
+  const auto& bed = f.scene.bed;
+  const double weight = bed.fluid.density * reduced_gravity(f.n.density_ratio, norm(bed.gravity)) * sphere_volume(d);
   if (d < cohesive_size)
     found.push_back(
         {"grains.diameter",
@@ -161,7 +161,8 @@ void stiffness(const SceneFacts& f, Found& found) {
   const auto& bed = f.scene.bed;
   const auto& g = bed.grains;
   if (!needs_settling(bed) || !(g.young_modulus > 0)) return;
-  const double load = (g.density - bed.fluid.density) * norm(bed.gravity) * g.diameter * bed_layers(bed);
+  const double load =
+      bed.fluid.density * reduced_gravity(f.n.density_ratio, norm(bed.gravity)) * g.diameter * bed_layers(bed);
   const double overlap =
       std::pow(0.5 * std::numbers::pi * (1 - g.poisson * g.poisson) * load / g.young_modulus, 2.0 / 3);
   if (!(overlap > soft_overlap)) return;

@@ -34,7 +34,7 @@ bool ramp_is_over(const BedRecord&, const Onset&, std::size_t ramp_levels);
 /// `period` > 0), and takes off each d/2 that is complete. Returns how many were: the events of the flux criterion.
 std::uint64_t count_events(Grains&, std::span<const double> x_before, double period, double diameter) noexcept;
 
-/// Number of grains that are faster than 0.01 sqrt((s-1) g d) [m/s].
+/// Number of grains that are faster than 0.01 sqrt(|s-1| g d) [m/s].
 std::uint64_t count_moving(const Grains&, double speed_scale) noexcept;
 
 /// Number of surface grains, A phi_A/(pi d^2/4) with phi_A = 0.8.
