@@ -185,21 +185,32 @@ ModelChoice exposure(const SceneFacts& f) {
                                  : "no bed to stand out of"};
 }
 
+std::string_view verdict_on(GapFlow flow) {
+  switch (flow) {
+    case GapFlow::laminar: return "laminar";
+    case GapFlow::over_smooth_bed:
+      return "laminar assumed: the sublayer covers the grains, the flow above is turbulent; without the term the lid "
+             "or gradient is that of laminar flow";
+    case GapFlow::turbulent: return "turbulent; without it laminar is assumed, against the numbers";
+    case GapFlow::enclosed: break;
+  }
+  return "laminar assumed: walls across the flow, for which that limit is not made";
+}
+
 ModelChoice turbulence(const SceneFacts& f) {
   const auto& n = f.n;
   if (std::isnan(n.gap_reynolds)) return not_sheared("gap Reynolds number");
-  const bool wild = is_turbulent(f.scene, n);
+  const auto flow = gap_flow(f.scene, n);
   const auto bed = std::isnan(n.friction_reynolds)
                        ? std::string()
                        : fmt::format("Re* = {:.3g} ({} {:g}), ", n.friction_reynolds,
                                      side(n.friction_reynolds > smooth_bed_reynolds), smooth_bed_reynolds);
-  return {
-      .wanted = wild,
-      .ratio = n.gap_reynolds / turbulent_gap(f.scene),
-      .reason = fmt::format("{}gap Reynolds number {:.3g} ({} {:g}){}: {}", bed, n.gap_reynolds,
-                            side(n.gap_reynolds > turbulent_gap(f.scene)), turbulent_gap(f.scene),
-                            std::isnan(n.shields) ? "" : fmt::format(" at theta = {:.2g}", n.shields),
-                            wild ? "turbulent; without it laminar is assumed, against the numbers" : "laminar indeed")};
+  return {.wanted = flow == GapFlow::turbulent,
+          .ratio = n.gap_reynolds / turbulent_gap(f.scene),
+          .reason =
+              fmt::format("{}gap Reynolds number {:.3g} ({} {:g}){}: {}", bed, n.gap_reynolds,
+                          side(n.gap_reynolds > turbulent_gap(f.scene)), turbulent_gap(f.scene),
+                          std::isnan(n.shields) ? "" : fmt::format(" at theta = {:.2g}", n.shields), verdict_on(flow))};
 }
 
 ModelChoice rolling_friction(const SceneFacts& f) {

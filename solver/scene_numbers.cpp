@@ -164,10 +164,10 @@ double turbulent_gap(const Scene& scene) {
   return scene.drive.kind == Kind::lid ? couette_transition : channel_transition;
 }
 
-bool is_turbulent(const Scene& scene, const SceneNumbers& n) {
-  if (scene.bed.sides[0] == Side::wall) return false;   // a cavity, not a channel
-  const bool rough_enough = std::isnan(n.friction_reynolds) || n.friction_reynolds > smooth_bed_reynolds;
-  return rough_enough && n.gap_reynolds > turbulent_gap(scene);   // false where nothing is sheared (nan)
+GapFlow gap_flow(const Scene& scene, const SceneNumbers& n) {
+  if (!(n.gap_reynolds > turbulent_gap(scene))) return GapFlow::laminar;   // nan where nothing is sheared
+  if (scene.bed.sides[0] == Side::wall) return GapFlow::enclosed;
+  return n.friction_reynolds <= smooth_bed_reynolds ? GapFlow::over_smooth_bed : GapFlow::turbulent;   // nan: no bed
 }
 
 }   // namespace bedload

@@ -81,7 +81,13 @@ bool is_sheared(const Scene&);
 double turbulent_gap(const Scene&);
 /// Re* up to which a bed is hydraulically smooth.
 inline constexpr double smooth_bed_reynolds = 5;
-/// True if the flow would be turbulent: beyond turbulent_gap, and over a bed beyond smooth_bed_reynolds.
-bool is_turbulent(const Scene&, const SceneNumbers&);
+/// What the flow of the gap would be, by its Reynolds number.
+enum class GapFlow {
+  laminar,           // up to turbulent_gap, or nothing shears the box
+  over_smooth_bed,   // turbulent beyond it, over grains that the viscous sublayer covers: Re* up to smooth_bed_reynolds
+  turbulent,         // over grains that reach out of it, or over a bare bottom
+  enclosed           // beyond it, with walls across: a cavity, for which the limits of channels are not made
+};
+GapFlow gap_flow(const Scene&, const SceneNumbers&);
 
 }   // namespace bedload

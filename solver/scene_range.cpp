@@ -30,18 +30,21 @@ constexpr double soft_overlap = 0.01;                    // of d
 constexpr double lift_reynolds = 200, spin_reynolds = 140;
 
 void laminar_assumed(const SceneFacts& f, Found& found) {
-  if (f.scene.terms.turbulence || !is_turbulent(f.scene, f.n)) return;
   const auto& n = f.n;
-  const auto speed = f.scene.drive.kind == Kind::lid ? "lid speed" : "mean speed";
-  const auto at = std::isnan(n.shields) ? std::string() : fmt::format("theta = {:.2g} means ", n.shields);
+  const auto flow = gap_flow(f.scene, n);
+  if (f.scene.terms.turbulence || flow == GapFlow::laminar || flow == GapFlow::enclosed) return;
+  const bool smooth = flow == GapFlow::over_smooth_bed;
   const auto rough =
       std::isnan(n.friction_reynolds) ? std::string() : fmt::format(" and Re* = {:.3g}", n.friction_reynolds);
-  found.push_back(
-      {"fluid.viscosity",
-       fmt::format("this laminar scene is not physical: {}a {} of {:.3g} m/s, a gap Reynolds number of {:.2g} "
-                   "(laminar up to {:g}){}; the real flow is turbulent",
-                   at, speed, n.flow_speed, n.gap_reynolds, turbulent_gap(f.scene), rough),
-       "a more viscous liquid or smaller grains make it laminar; the term turbulence models it"});
+  found.push_back({"fluid.viscosity",
+                   fmt::format("{}: {}a {} of {:.3g} m/s, a gap Reynolds number of {:.2g} (laminar up to {:g}){}; {}",
+                               smooth ? "laminar is assumed" : "this laminar scene is not physical",
+                               std::isnan(n.shields) ? "" : fmt::format("theta = {:.2g} means ", n.shields),
+                               f.scene.drive.kind == Kind::lid ? "lid speed" : "mean speed", n.flow_speed,
+                               n.gap_reynolds, turbulent_gap(f.scene), rough,
+                               smooth ? "the sublayer covers the grains, but the flow above is turbulent"
+                                      : "the real flow is turbulent"),
+                   "a more viscous liquid or smaller grains make it laminar; the term turbulence models it"});
 }
 
 void drag_law_reynolds(const SceneFacts& f, Found& found) {

@@ -56,6 +56,15 @@ Scene spheres_in_a_column(std::initializer_list<const char*> rows) {
 }
 Scene settling_sphere() { return spheres_in_a_column({"0.5e-3,0.5e-3,4e-3"}); }
 
+/// Sand of 0.1 mm in water, 20 mm below a lid: at theta = 0.2 u* = 18 mm/s, Re* = 1.8, a lid at 6.5 m/s, gap Re 1.3e5.
+void become_fine_sand(Scene& scene) {
+  scene.bed.fluid.viscosity = 1e-6;
+  scene.bed.grains.diameter = 1e-4, scene.bed.grains.density = 2650;
+  scene.bed.length = {4e-3, 2e-3, 0.0206};   // some 6 d of bed
+  scene.bed.source.count = 5200;
+  scene.grid = {.cells = {20, 10, 412}, .h = {0.2e-3, 0.2e-3, 0.05e-3}, .sides = scene.bed.sides};
+}
+
 ModelChoice choice(const Scene& scene, const std::string& term) {
   const auto models = required_models(scene);
   const auto found = std::ranges::find(models, term, &ModelChoice::term);
@@ -100,6 +109,33 @@ TEST(RequiredModels, CallALaminarSceneInWaterUnphysical) {
   scene.terms.turbulence = false;
   EXPECT_TRUE(warns(scene, "not physical"));
   EXPECT_TRUE(warns(scene, "leaves out"));
+}
+
+// A sublayer of 5 nu/u* = 0.28 mm covers grains of 0.1 mm: they do not ask for the term, but the flow above is not laminar.
+TEST(RequiredModels, SayThatTheFlowAboveASmoothBedIsTurbulent) {
+  auto scene = laminar_bed();
+  become_fine_sand(scene);
+  EXPECT_NEAR(numbers_of(scene).friction_reynolds, 1.80, 0.01);
+  EXPECT_NEAR(numbers_of(scene).gap_reynolds, 1.3e5, 0.02e5);
+  const auto turbulence = choice(scene, "turbulence");
+  EXPECT_FALSE(turbulence.wanted);
+  EXPECT_NE(turbulence.reason.find("the sublayer covers the grains, the flow above is turbulent"), std::string::npos);
+  EXPECT_TRUE(warns(scene, "gap Reynolds number of 1.3e+05"));
+  scene.terms.turbulence = true;
+  EXPECT_FALSE(warns(scene, "gap Reynolds number"));
+}
+
+// The limits of channels say nothing of a flow with walls across it.
+TEST(RequiredModels, CallNoCavityTurbulent) {
+  auto scene = erosion_in_water();
+  scene.bed.sides[0] = scene.grid.sides[0] = Side::wall;
+  scene.terms.turbulence = false;
+  const auto turbulence = choice(scene, "turbulence");
+  EXPECT_FALSE(turbulence.wanted);
+  EXPECT_NE(turbulence.reason.find("laminar assumed: walls across the flow"), std::string::npos);
+  EXPECT_FALSE(warns(scene, "gap Reynolds number"));
+  scene.bed.fluid.viscosity = 1e-4;
+  EXPECT_TRUE(choice(scene, "turbulence").reason.ends_with(": laminar"));
 }
 
 TEST(RequiredModels, AcceptALaminarSceneInAViscousLiquid) {
@@ -304,6 +340,8 @@ INSTANTIATE_TEST_SUITE_P(
     SceneRange, OutOfRange,
     testing::Values(
         Strange{"turbulent", [](Scene& s) { s.bed.fluid.viscosity = 1e-6; }, "fluid.viscosity", "not physical"},
+        Strange{"turbulent above a smooth bed", become_fine_sand, "fluid.viscosity",
+                "the sublayer covers the grains, but the flow above is turbulent"},
         Strange{"law for slow grains", [](Scene& s) { s.drag = DragLawName::stokes; }, "models.drag", "up to 0.1"},
         Strange{"law for lone grains", [](Scene& s) { s.drag = DragLawName::schiller_naumann; }, "models.drag",
                 "0.42; the drag law schiller_naumann is made for 0.995"},
