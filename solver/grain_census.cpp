@@ -94,7 +94,7 @@ void count_table(const Scene& scene, GrainCensus& census) {
   for (std::size_t n = 0; n < grains.size(); ++n) {
     census.mobile |= !grains.fixed[n];
     census.fastest = std::max(census.fastest, norm(grains.velocity[n]));
-    census.may_turn |= norm2(grains.spin[n]) > 0;
+    if (!grains.fixed[n]) census.fastest_spin = std::max(census.fastest_spin, norm(grains.spin[n]));
     census.densest = std::max(census.densest, around[n]);
     census.loosest = std::min(census.loosest, around[n]);
     if (loneness(around[n]) > 0) census.nearness = std::max(census.nearness, nearness_of(scene, grains, n));
@@ -126,7 +126,7 @@ GrainCensus census_of(const Scene& scene) {
   else count_packed(scene, census);
   const bool walls = std::ranges::find(bed.sides, Side::wall) != bed.sides.end();
   census.collide = census.mobile && (bed.source.count > 1 || walls);
-  census.may_turn |= census.collide && bed.grains.friction > 0;
+  census.may_turn = census.fastest_spin > 0 || (census.collide && bed.grains.friction > 0);
   return census;
 }
 

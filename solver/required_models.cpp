@@ -9,6 +9,7 @@
 #include "solver/coupling/drag_laws.hpp"
 #include "solver/coupling/lateral_forces.hpp"
 #include "solver/coupling/packing_of_others.hpp"
+#include "solver/coupling/spin_exchange.hpp"
 #include "solver/dimensionless.hpp"
 #include "solver/grains/grains.hpp"
 #include "solver/scene_range.hpp"
@@ -120,32 +121,59 @@ ModelChoice shear_lift(const SceneFacts& f) {
               ratio, side(ratio > share_of_weight), share_of_weight, re, side(re > slow_shear), slow_shear)};
 }
 
-/// A surface grain that does not turn yet, at half a diameter from the bed.
+constexpr auto nothing_turns = "no shear over bed or bottom, and no spin in the table of grains: nothing turns yet";
+
+/// How fast grains and fluid turn against each other, and pass each other.
+struct Turning {
+  double spin, slip;       // [rad/s], [m/s]
+  bool of_table = false;   // a grain that a table makes turn; else a surface grain that does not turn yet
+  std::string_view who() const { return of_table ? "a grain that spins to begin with" : "a surface grain"; }
+};
+/// A surface grain at half a diameter from the bed, or a grain that a table makes turn faster than the shear.
+Turning turning(const SceneFacts& f) {
+  const double shear = f.sheared() ? f.n.shear_rate : 0;
+  Turning t{0.5 * shear, 0.5 * shear * f.diameter()};
+  if (f.grains.fastest_spin > t.spin) {
+    const double fall = std::isnan(f.n.settling_speed) ? 0 : f.n.settling_speed;
+    t = {f.grains.fastest_spin, std::max({t.slip, f.grains.fastest, fall}), true};
+  }
+  return t;
+}
+
+double submerged_weight(const SceneFacts& f) {   // per mass of fluid [m/s2]
+  return reduced_gravity(f.n.density_ratio, norm(f.scene.bed.gravity));
+}
+
 ModelChoice magnus(const SceneFacts& f) {
-  if (!f.sheared()) return not_sheared("spin against the fluid");
-  const double d = f.diameter(), nu = f.viscosity(), shear = f.n.shear_rate;
-  const Vec3 slip{0.5 * shear * d, 0, 0}, spin{0, -0.5 * shear, 0};
-  const double spin_ratio = norm(spin) * d / (2 * norm(slip)), re = reynolds_number(norm(slip), d, nu);
-  const double weight = reduced_gravity(f.n.density_ratio, norm(f.scene.bed.gravity)) * sphere_volume(d);
-  const double ratio = norm(cross(slip, bedload::magnus(slip, spin, d, nu))) / weight;
+  const auto turns = turning(f);
+  if (!(turns.spin > 0)) return {.ratio = 0, .reason = nothing_turns};
+  const double d = f.diameter(), nu = f.viscosity();
+  const double spin_ratio = turns.spin * d / (2 * turns.slip), re = reynolds_number(turns.slip, d, nu);
+  const double force = turns.slip * norm(bedload::magnus({turns.slip, 0, 0}, {0, turns.spin, 0}, d, nu));
+  const double ratio = force > 0 ? force / (submerged_weight(f) * sphere_volume(d)) : 0;
   return {.wanted =
               f.grains.mobile && f.grains.may_turn && spin_ratio > spinning && re > inertial && ratio > share_of_weight,
           .ratio = ratio,
-          .reason = fmt::format("force by spin {:.2g} of a surface grain's weight ({} {:g}), omega d/(2 w) = {:.2g}, "
+          .reason = fmt::format("force by spin {:.2g} of the weight of {} ({} {:g}), omega d/(2 w) = {:.2g} ({} {:g}), "
                                 "Re = {:.2g} ({} {:g}); without it so much is missing beside shear lift",
-                                ratio, side(ratio > share_of_weight), share_of_weight, spin_ratio, re,
-                                side(re > inertial), inertial)};
+                                ratio, turns.who(), side(ratio > share_of_weight), share_of_weight, spin_ratio,
+                                side(spin_ratio > spinning), spinning, re, side(re > inertial), inertial)};
 }
 
+/// 6 theta in shear: 12 nu omega/(|s - 1| g d) at omega = gdot/2.
 ModelChoice viscous_torque(const SceneFacts& f) {
-  if (!f.sheared()) return not_sheared("6 theta");
-  const double ratio = f.n.torque_per_weight;
+  const auto turns = turning(f);
+  if (!(turns.spin > 0)) return {.ratio = 0, .reason = nothing_turns};
+  const double d = f.diameter(), nu = f.viscosity();
+  const double by_spin =
+      torque_factor(shear_reynolds_number(turns.spin, d, nu)) * 12 * nu * turns.spin / (submerged_weight(f) * d);
+  const double ratio = turns.of_table ? by_spin : f.n.torque_per_weight;
   return {
       .wanted = f.grains.mobile && ratio > share_of_weight,
       .ratio = ratio,
-      .reason = fmt::format("torque on a surface grain 6 theta = {:.2g} of its weight times radius ({} {:g}); without "
-                            "it theta_c comes out too high",
-                            ratio, side(ratio > share_of_weight), share_of_weight)};
+      .reason = fmt::format("torque on {} {}{:.2g} of its weight times radius ({} {:g}); without it {}", turns.who(),
+                            turns.of_table ? "" : "6 theta = ", ratio, side(ratio > share_of_weight), share_of_weight,
+                            turns.of_table ? "it goes on spinning" : "theta_c comes out too high")};
 }
 
 ModelChoice wall_forces(const SceneFacts& f) {

@@ -20,6 +20,7 @@ struct GrainCensus {
   double loosest = 1;                 // the smallest; 0 above a bed, where grains that leave it go [-]
   double smallest = no_number;        // diameter [m]
   double fastest = 0;                 // speed that a table gives a grain [m/s]
+  double fastest_spin = 0;            // that a table gives a grain that is not fixed [rad/s]
   double nearness = 0;                // a/z of a lone grain to the nearest no-slip wall that it has or comes to [-]
 };
 GrainCensus census_of(const Scene&);

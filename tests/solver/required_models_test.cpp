@@ -299,6 +299,59 @@ TEST(RequiredModels, ReadTheSpeedsOfATable) {
   EXPECT_NEAR(numbers_of(scene).impact_stokes, 3.5 * 1e-4 * 0.1 / 9e-6, 1e-9);
 }
 
+/// The settling sphere, thrown along x at 0.1 m/s (Re 10) with a spin about z [rad/s].
+Scene thrown_sphere(const std::string& spin) {
+  auto scene = settling_sphere();
+  scene.bed.source.csv =
+      "x,y,z,diameter,density,fixed,vx,vy,vz,wx,wy,wz\n0.5e-3,0.5e-3,4e-3,1e-4,3000,0,0.1,0,0,0,0," + spin + "\n";
+  return scene;
+}
+
+// omega d/(2 w) = 1; 3/4 omega w/((s - 1) g) = 7.65 of the weight by Rubinow & Keller, 0.757 of that at Re 10, Re_r 20.
+// Torque 12 nu omega/((s - 1) g d) = 12.2 of the weight times radius.
+TEST(RequiredModels, WantForceAndTorqueOfTheSpinThatATableGives) {
+  const auto scene = thrown_sphere("2000");
+  EXPECT_EQ(census_of(scene).fastest_spin, 2000);
+  EXPECT_TRUE(choice(scene, "magnus").wanted);
+  EXPECT_NEAR(choice(scene, "magnus").ratio, 0.757 * 7.645, 0.01);
+  EXPECT_TRUE(choice(scene, "viscous_torque").wanted);
+  EXPECT_NEAR(choice(scene, "viscous_torque").ratio, 12.23, 0.01);
+  EXPECT_EQ(choice(scene, "magnus").reason.find("no shear"), std::string::npos);
+  EXPECT_TRUE(wanted_terms(scene).magnus && wanted_terms(scene).viscous_torque);
+}
+
+// omega d/(2 w) = 0.05 bends no path, though the force would be a third of the weight; without spin there is none.
+TEST(RequiredModels, WantNoMagnusForceOfASpinThatIsSlowAgainstTheSlip) {
+  const auto slow = choice(thrown_sphere("100"), "magnus");
+  EXPECT_FALSE(slow.wanted);
+  EXPECT_GT(slow.ratio, 0.05);
+  EXPECT_NE(slow.reason.find("omega d/(2 w) = 0.05 (<= 0.1)"), std::string::npos);
+  EXPECT_EQ(choice(thrown_sphere("0"), "magnus").ratio, 0);
+  EXPECT_EQ(choice(thrown_sphere("0"), "viscous_torque").ratio, 0);
+}
+
+// Without gravity and speed: no slip, no force, and a torque that no weight resists.
+TEST(RequiredModels, WantTheTorqueOfASphereThatOnlySpins) {
+  auto scene = thrown_sphere("2000");
+  scene.bed.gravity = {};
+  scene.bed.source.csv =
+      "x,y,z,diameter,density,fixed,vx,vy,vz,wx,wy,wz\n0.5e-3,0.5e-3,4e-3,1e-4,3000,0,0,0,0,0,0,2000\n";
+  EXPECT_FALSE(choice(scene, "magnus").wanted);
+  EXPECT_EQ(choice(scene, "magnus").ratio, 0);
+  EXPECT_TRUE(choice(scene, "viscous_torque").wanted);
+}
+
+// theta = 0.2 in water: slip 1.96 m/s, spin 1962 rad/s, Re 1962: 3/4 omega w/((s - 1) g) = 147, of which 0.45 are left.
+// In the viscous liquid Re is 0.2: nothing bends at that.
+TEST(RequiredModels, WantTheMagnusForceOfSurfaceGrainsUnlessTheyAreSlow) {
+  EXPECT_TRUE(choice(erosion_in_water(), "magnus").wanted);
+  EXPECT_NEAR(choice(erosion_in_water(), "magnus").ratio, 0.45 * 147.2, 0.1);
+  EXPECT_FALSE(choice(laminar_bed(), "magnus").wanted);
+  auto smooth = erosion_in_water();
+  smooth.bed.grains.friction = 0;   // nothing makes them turn against the fluid
+  EXPECT_FALSE(choice(smooth, "magnus").wanted);
+}
+
 // Four others at a distance of one diameter and a half: each lies wholly within two diameters, 1/63 of the space left.
 TEST(GrainCensus, MeasuresThePackingOfTheOtherGrains) {
   const auto lone = census_of(settling_sphere());
