@@ -88,6 +88,16 @@ void grain_numbers(const Scene& scene, SceneNumbers& n) {
   n.self_response = self_response(scene, weight > 0 ? n.settling_speed : 0);
 }
 
+/// u+ at the centre of a surface grain in viscous flow.
+double viscous_speed(double friction_reynolds) { return 0.5 * friction_reynolds; }
+
+/// b at the centre of a surface grain at rest: 1 where the speed grows with height; where the log law of a bed as rough as its
+/// grains is large reaches it, d/2 up, 1/((1 + 1/15) ln 16).
+double shear_per_slip(const Scene& scene, const SceneNumbers& n) {
+  const bool by_log_law = scene.terms.turbulence && viscous_speed(n.friction_reynolds) > log_law_at_the_top;
+  return by_log_law ? 1 / ((1 + 1.0 / 15) * std::log(16.0)) : 1;
+}
+
 void flow_numbers(const Scene& scene, const GrainCensus& census, SceneNumbers& n) {
   const auto& bed = scene.bed;
   const double d = bed.grains.diameter, nu = bed.fluid.viscosity, height = n.bed_depth * d;
@@ -106,6 +116,7 @@ void flow_numbers(const Scene& scene, const GrainCensus& census, SceneNumbers& n
     n.shear_reynolds = shear_reynolds_number(n.shear_rate, d, nu);
     n.lift_per_weight = 1.10 * shields * n.shear_reynolds;
     n.torque_per_weight = 6 * shields;
+    n.shear_per_slip = shear_per_slip(scene, n);
   }
   const bool lid = scene.drive.kind == Kind::lid;
   n.flow_speed = n.shear_rate * n.gap / (lid ? 1 : bed.top == Top::free_slip ? 3 : 6);
@@ -122,9 +133,8 @@ double largest_slip(const Scene& scene, const GrainCensus& census, const SceneNu
     const double highest = shear_of_level(scene, range_of_levels(scene.drive).strongest, height, n.gap);
     const double shear = std::max(n.shear_rate, highest);
     const double friction_speed = std::sqrt(nu * shear);
-    const double in_wall_units = 0.5 * friction_speed * d / nu;   // u+ at the centre of a surface grain, laminar
-    slip = std::max(
-        slip, friction_speed * (scene.terms.turbulence ? std::min(in_wall_units, log_law_at_the_top) : in_wall_units));
+    const double viscous = viscous_speed(reynolds_number(friction_speed, d, nu));
+    slip = std::max(slip, friction_speed * (scene.terms.turbulence ? std::min(viscous, log_law_at_the_top) : viscous));
   }
   if (scene.drive.kind == Kind::through_flow)
     for (const double level : scene.drive.levels) slip = std::max(slip, std::abs(level));

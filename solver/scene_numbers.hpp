@@ -45,10 +45,11 @@ struct SceneNumbers {
   double gap_reynolds = no_number;        // flow_speed gap/nu [-]
   double lift_per_weight = no_number;     // 1.10 theta Re_g [-]; infinite without submerged weight
   double torque_per_weight = no_number;   // 6 theta [-]; the same
-  double impact_speed = no_number;        // of a grain that falls, is carried by the shear or thrown by a table [m/s]
-  double impact_stokes = no_number;       // at that speed [-]
-  double grain_reynolds = no_number;      // the largest slip that a grain is expected to see, at the highest level [-]
-  double self_response = no_number;       // kappa: share of a lone grain's own drag that comes back to it as flow [-]
+  double shear_per_slip = no_number;   // b = d |omega|/(2 |w|) of a grain at rest at the surface of bed or bottom [-]
+  double impact_speed = no_number;     // of a grain that falls, is carried by the shear or thrown by a table [m/s]
+  double impact_stokes = no_number;    // at that speed [-]
+  double grain_reynolds = no_number;   // the largest slip that a grain is expected to see, at the highest level [-]
+  double self_response = no_number;    // kappa: share of a lone grain's own drag that comes back to it as flow [-]
 };
 
 /// An unresolved laminar bed begins to move near theta = 0.2 (mean-field estimate 0.19-0.21): what depends on the flow is

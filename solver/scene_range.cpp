@@ -25,9 +25,11 @@ constexpr double largest_response = 0.7;      // kappa up to which a correction 
 constexpr double cells_in_a_gap = 4;
 constexpr double cell_at_a_bed = 2;   // d: over more, the speed at a surface grain is that of the cell
 constexpr double shallow_bed = 5;     // d: creep reaches the bottom
-constexpr double repose = 25 * std::numbers::pi / 180;   // of smooth spheres 22-26 degrees
-constexpr double soft_overlap = 0.01;                    // of d
-constexpr double lift_reynolds = 200, spin_reynolds = 140;
+constexpr double repose = 25 * std::numbers::pi / 180;    // of smooth spheres 22-26 degrees
+constexpr double soft_overlap = 0.01;                     // of d
+constexpr double lift_reynolds = 100, lift_shear = 0.4;   // Saffman & Mei, far from walls
+constexpr double wall_lift_reynolds = 200;                // Zeng et al., a lone grain at a wall
+constexpr double spin_reynolds = 140;                     // Oesterle & Bui Dinh
 
 void laminar_assumed(const SceneFacts& f, Found& found) {
   const auto& n = f.n;
@@ -177,16 +179,31 @@ void stiffness(const SceneFacts& f, Found& found) {
        "\"auto\", or a larger modulus"});
 }
 
+/// A law for a term, and the Reynolds number of a grain up to which it is known.
+void law_of_lift(const SceneFacts& f, const char* law, double limit, const char* term, Found& found) {
+  if (f.n.grain_reynolds > limit)
+    found.push_back(
+        {"models.terms",
+         fmt::format("grains come to Re = {:.3g}; the law of {} is known up to {:g}", f.n.grain_reynolds, law, limit),
+         fmt::format("leave {} out, or a slower flow", term)});
+}
+
 void laws_of_lift(const SceneFacts& f, Found& found) {
-  const double re = f.n.grain_reynolds;
-  const auto beyond = [&](bool on, const char* term, double limit) {
-    if (on && re > limit)
-      found.push_back({"models.terms",
-                       fmt::format("grains come to Re = {:.3g}; the law of {} is known up to {:g}", re, term, limit),
-                       fmt::format("leave {} out, or a slower flow", term)});
-  };
-  beyond(f.scene.terms.shear_lift, "shear_lift", lift_reynolds);
-  beyond(f.scene.terms.magnus, "magnus", spin_reynolds);
+  const auto& terms = f.scene.terms;
+  if (terms.magnus) law_of_lift(f, "Oesterle and Bui Dinh for magnus", spin_reynolds, "magnus", found);
+  if (!terms.shear_lift) return;
+  if (terms.wall_forces && f.grains.nearness > 0 && !f.grains.bed)
+    return law_of_lift(f, "Zeng et al. for shear_lift at a wall", wall_lift_reynolds, "shear_lift", found);
+  law_of_lift(f, "Saffman and Mei for shear_lift", lift_reynolds, "shear_lift", found);
+  const bool lies_in_shear = f.sheared_bed() || (f.sheared() && f.grains.nearness == 1);
+  if (lies_in_shear && f.n.shear_per_slip > lift_shear)
+    found.push_back(
+        {"models.terms",
+         fmt::format("a grain at rest at the surface has d|omega|/(2|w|) = {:.2g}; the law of Saffman and Mei for "
+                     "shear_lift is made for {:g} and less, far from walls",
+                     f.n.shear_per_slip, lift_shear),
+         "read the lift on a bed as an order of magnitude, or leave shear_lift out; for lone grains, wall_forces "
+         "brings the law of a wall"});
 }
 
 void idle_drive(const SceneFacts& f, Found& found) {

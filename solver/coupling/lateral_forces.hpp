@@ -10,7 +10,7 @@ namespace bedload {
 
 /// Lift vector of a sphere in a flow of the given vorticity, Saffman 1965 (J. Fluid Mech. 22, 385) as continued to finite Re
 /// by Mei 1992 (Int. J. Multiphase Flow 18, 145): k = 1.615 d^2 sqrt(nu/|omega|) f omega. Far from walls, for
-/// d |omega|/(2 |w|) <= 0.4. slip [m/s]; vorticity of the fluid, curl u [1/s]; diameter [m]; viscosity [m2/s].
+/// d |omega|/(2 |w|) <= 0.4 and Re <= 100. slip [m/s]; vorticity of the fluid, curl u [1/s]; diameter [m]; viscosity [m2/s].
 Vec3 saffman_mei(Vec3 slip, Vec3 vorticity, double diameter, double viscosity);
 
 /// Lift vector of a spinning sphere, relative_spin = omega_p - curl(u)/2 [rad/s]: Rubinow & Keller 1961 (J. Fluid Mech. 11,

@@ -395,6 +395,12 @@ INSTANTIATE_TEST_SUITE_P(
         Strange{"turbulent", [](Scene& s) { s.bed.fluid.viscosity = 1e-6; }, "fluid.viscosity", "not physical"},
         Strange{"turbulent above a smooth bed", become_fine_sand, "fluid.viscosity",
                 "the sublayer covers the grains, but the flow above is turbulent"},
+        Strange{"lift on a bed", [](Scene& s) { s.terms.shear_lift = true; }, "models.terms",
+                "d|omega|/(2|w|) = 1; the law of Saffman and Mei for shear_lift is made for 0.4 and less"},
+        Strange{"lift on fast grains", [](Scene& s) { s.terms.shear_lift = true, s.bed.fluid.viscosity = 1e-6; },
+                "models.terms", "the law of Saffman and Mei for shear_lift is known up to 100"},
+        Strange{"spin of fast grains", [](Scene& s) { s.terms.magnus = true, s.bed.fluid.viscosity = 1e-6; },
+                "models.terms", "the law of Oesterle and Bui Dinh for magnus is known up to 140"},
         Strange{"law for slow grains", [](Scene& s) { s.drag = DragLawName::stokes; }, "models.drag", "up to 0.1"},
         Strange{"law for lone grains", [](Scene& s) { s.drag = DragLawName::schiller_naumann; }, "models.drag",
                 "0.42; the drag law schiller_naumann is made for 0.995"},
@@ -415,6 +421,43 @@ INSTANTIATE_TEST_SUITE_P(
                 "over the gap"},
         Strange{"soft grains", [](Scene& s) { s.bed.grains.young_modulus = 1e4; }, "grains.stiffness", "overlap"},
         Strange{"no drag", [](Scene& s) { s.terms.drag = false; }, "drive.kind", "moves no grain"}));
+
+/// What is said of models.terms; empty if nothing.
+std::string said_of_terms(const Scene& scene) {
+  std::string said;
+  for (const auto& p : range_problems_of(scene))
+    if (p.parameter == "models.terms") said += p.message + "\n";
+  return said;
+}
+
+// Saffman and Mei: Re up to 100; the law of a wall, where there is one for a lone grain: up to 200.
+TEST(SceneRange, GoesByTheLawThatLiftsTheGrain) {
+  auto scene = settling_sphere();
+  scene.terms.shear_lift = true;
+  const auto throw_at = [&](const std::string& speed) {   // d = 0.1 mm in water: Re = 100 per m/s
+    scene.bed.source.csv = "x,y,z,diameter,density,fixed,vx,vy,vz\n0.5e-3,0.5e-3,4e-3,1e-4,3000,0," + speed + ",0,0\n";
+  };
+  throw_at("1.5");
+  ASSERT_TRUE(scene.terms.wall_forces);
+  EXPECT_EQ(said_of_terms(scene), "");
+  scene.terms.wall_forces = false;
+  EXPECT_NE(said_of_terms(scene).find("Re = 150; the law of Saffman and Mei"), std::string::npos);
+  throw_at("0.9");
+  EXPECT_EQ(said_of_terms(scene), "");
+  scene.terms.wall_forces = true;
+  throw_at("2.5");
+  EXPECT_NE(said_of_terms(scene).find("Re = 250; the law of Zeng et al. for shear_lift at a wall is known up to 200"),
+            std::string::npos);
+}
+
+// A surface grain at rest: b = 1 in viscous flow; where the log law reaches it, 0.34.
+TEST(SceneRange, KnowsTheShearOfTurbulentFlowAtASurfaceGrain) {
+  auto scene = erosion_in_water();
+  scene.terms.shear_lift = scene.terms.turbulence = true;
+  EXPECT_EQ(said_of_terms(scene).find("omega"), std::string::npos);
+  scene.terms.turbulence = false;
+  EXPECT_NE(said_of_terms(scene).find("omega"), std::string::npos);
+}
 
 // 3 pi 0.073 d/h in cells narrower than grains: 0.86 of the drag of a slow grain comes back, 0.69 in cubes of 1 d.
 TEST(SceneRange, TellsWhenCellsAreTooSmallForLoneGrains) {
