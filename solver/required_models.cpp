@@ -47,10 +47,12 @@ ModelChoice drag(const SceneFacts& f) {
 
 ModelChoice buoyancy(const SceneFacts& f) {
   const double share = 1 / f.n.density_ratio;
+  const auto worth = share < 1    ? fmt::format("grains weigh {:.3g} times too much", 1 / (1 - share))
+                     : share == 1 ? std::string("grains sink where they should float")
+                                  : std::string("grains sink where they should rise");
   return {.wanted = f.grains.any,
           .ratio = share,
-          .reason = fmt::format("1/s = {:.3g} of a grain's weight; without it grains weigh {:.3g} times too much",
-                                share, f.n.density_ratio > 1 ? 1 / (1 - share) : no_number)};
+          .reason = fmt::format("1/s = {:.3g} of a grain's weight; without it {}", share, worth)};
 }
 
 /// Both halves of Model A by one rule: fluid that accelerates as grains do, |Du/Dt| ~ g, pushes them by V rho_f Du/Dt.

@@ -226,6 +226,16 @@ TEST(RequiredModels, WantNeitherModelANorAddedMassInAir) {
   EXPECT_FALSE(choice(scene, "added_mass").wanted);
 }
 
+// s = 3: weight over submerged weight is 3/2. What floats has none to compare with.
+TEST(RequiredModels, SayWhatIsWrongWithoutBuoyancy) {
+  auto scene = laminar_bed();
+  EXPECT_NE(choice(scene, "buoyancy").reason.find("grains weigh 1.5 times too much"), std::string::npos);
+  scene.bed.grains.density = 1000;
+  EXPECT_NE(choice(scene, "buoyancy").reason.find("grains sink where they should float"), std::string::npos);
+  scene.bed.grains.density = 500;
+  EXPECT_NE(choice(scene, "buoyancy").reason.find("grains sink where they should rise"), std::string::npos);
+}
+
 // C_A/(s + C_A) with C_A = 1/2: 16 % of the inertia of quartz, 33 % of a grain that barely sinks.
 TEST(RequiredModels, GiveTheShareOfTheAddedMass) {
   auto scene = erosion_in_water();
