@@ -195,18 +195,26 @@ ModelChoice wall_forces(const SceneFacts& f) {
 }
 
 /// Both film models; of the two, the one that is on, else restitution, which costs nothing.
-ModelChoice film(const SceneFacts& f, bool chosen, std::string_view other) {
+ModelChoice film(const SceneFacts& f, bool chosen, bool other_on, std::string_view other) {
   const double st = f.n.impact_stokes, share = st > 0 ? 1 - std::exp(-loss_per_stokes / st) : 1;
   const bool wet = f.grains.collide && st < dry_impact && st > 0;
   auto why = !f.grains.collide ? std::string("nothing collides")
              : !(st > 0)       ? std::string("nothing is known to bring grains together")
                          : fmt::format("impact Stokes number {:.2g} ({} {:g}): the film takes {:.0f} % of a rebound",
                                        st, st < dry_impact ? "<" : ">=", dry_impact, 100 * share);
-  why += chosen ? "; without it collisions rebound as dry ones" : fmt::format("; {} stands for it", other);
+  why += chosen     ? "; without it collisions rebound as dry ones"
+         : other_on ? fmt::format("; {} stands for it", other)
+                    : fmt::format("; the cheaper {} would do, and is off too", other);
   return {.wanted = wet && chosen, .ratio = f.grains.collide && st > 0 ? share : no_number, .reason = why};
 }
-ModelChoice wet_restitution(const SceneFacts& f) { return film(f, !f.scene.terms.lubrication, "lubrication"); }
-ModelChoice lubrication(const SceneFacts& f) { return film(f, f.scene.terms.lubrication, "wet_restitution"); }
+ModelChoice wet_restitution(const SceneFacts& f) {
+  const auto& terms = f.scene.terms;
+  return film(f, !terms.lubrication, terms.lubrication, "lubrication");
+}
+ModelChoice lubrication(const SceneFacts& f) {
+  const auto& terms = f.scene.terms;
+  return film(f, terms.lubrication, terms.wet_restitution, "wet_restitution");
+}
 
 ModelChoice exposure(const SceneFacts& f) {
   return {.ratio = no_number,

@@ -255,7 +255,12 @@ TEST(RequiredModels, WantOneModelOfTheFilmNeverBoth) {
   auto scene = laminar_bed();
   EXPECT_TRUE(choice(scene, "wet_restitution").wanted);
   EXPECT_FALSE(choice(scene, "lubrication").wanted);
-  scene.terms.wet_restitution = false, scene.terms.lubrication = true;
+  scene.terms.wet_restitution = false;   // neither is on: nothing stands for the other
+  EXPECT_EQ(choice(scene, "lubrication").reason.find("stands for it"), std::string::npos);
+  EXPECT_NE(choice(scene, "lubrication").reason.find("wet_restitution would do"), std::string::npos);
+  EXPECT_TRUE(choice(scene, "wet_restitution").wanted);
+  scene.terms.lubrication = true;
+  EXPECT_NE(choice(scene, "wet_restitution").reason.find("lubrication stands for it"), std::string::npos);
   EXPECT_FALSE(choice(scene, "wet_restitution").wanted);
   EXPECT_TRUE(choice(scene, "lubrication").wanted);
   EXPECT_FALSE(warns(scene, "leaves out"));
