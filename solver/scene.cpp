@@ -93,11 +93,10 @@ void check_drive(const Scene& scene, Found& found) {
         {"drive.shields.from", "grains without submerged weight have no Shields number", "drive by speed or gradient"});
 }
 
-/// Terms that act by the drag coefficient, or correct it.
+/// Terms that act by the drag coefficient, are cut to half of it (lifts) or correct it; the viscous torque has its own.
 constexpr NamedTerm beside_drag[] = {{"self_disturbance", &Terms::self_disturbance},
                                      {"shear_lift", &Terms::shear_lift},
                                      {"magnus", &Terms::magnus},
-                                     {"viscous_torque", &Terms::viscous_torque},
                                      {"wall_forces", &Terms::wall_forces},
                                      {"exposure", &Terms::exposure}};
 

@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "study.toml:23:9: error: models.terms: wet_restitution and lubrication are both the film"},
         Refusal{"[drive]", "[models]\nterms = [\"buoyancy\", \"shear_lift\"]\n[drive]",
                 "models.terms: shear_lift works on the drag of a grain, and drag is left out\nhint: add \"drag\""},
-        Refusal{"[drive]", "[models]\nterms = [\"viscous_torque\"]\n[drive]", "viscous_torque works on the drag"},
+        Refusal{"[drive]", "[models]\nterms = [\"magnus\"]\n[drive]", "magnus works on the drag"},
         Refusal{"spread = 0.05", "friction = 0\n[models]\nterms = [\"drag\", \"magnus\"]",
                 "magnus is the force of a grain's spin, and nothing turns these"},
         Refusal{"height = \"13 d\"", "height = \"13 d\"\nroughness = \"1 mm\"",
@@ -161,6 +161,13 @@ TEST(StudyFile, IsStrictOnlyWhereItSaysSo) {
   EXPECT_EQ(stokes("strict = false\n"), "");
   EXPECT_TRUE(says(stokes("strict = true\n"), "the drag law stokes is made for Re up to 0.1"));
   EXPECT_TRUE(says(stokes("strict = true\n"), "made for 0.995 and more"));
+}
+
+// It is the fluid's turning against the grain's, whatever its slip.
+TEST(StudyFile, TakesViscousTorqueWithoutDrag) {
+  const auto text = with(good_study, "[drive]", "[models]\nterms = [\"viscous_torque\"]\n[drive]");
+  EXPECT_EQ(complaint(text), "");
+  EXPECT_TRUE(unfold(parse_study(text, "study.toml"))[0].scene.terms.viscous_torque);
 }
 
 TEST(StudyFile, TakesAnEmptyListOfTermsAsDryGrains) {
