@@ -6,10 +6,12 @@
 namespace bedload {
 
 /// Grains lie in rows of four numbers, which are loaded and stored whole.
-using Row = double __attribute__((vector_size(32), may_alias));
+using BodyRow = double __attribute__((vector_size(32), may_alias));
 
-inline Row load_row(const double* at) { return *static_cast<const Row*>(__builtin_assume_aligned(at, 32)); }
-inline void store_row(double* at, Row row) { *static_cast<Row*>(__builtin_assume_aligned(at, 32)) = row; }
+inline BodyRow load_body_row(const double* at) {
+  return *static_cast<const BodyRow*>(__builtin_assume_aligned(at, 32));
+}
+inline void store_body_row(double* at, BodyRow row) { *static_cast<BodyRow*>(__builtin_assume_aligned(at, 32)) = row; }
 
 /// A pair visits two grains far apart in memory: one block of 96 bytes each costs fewer cache lines than nine arrays.
 /// Three rows of four numbers, as the contact pass loads them.
@@ -34,9 +36,9 @@ static_assert(sizeof(Load) == 64);
 
 /// Adds a load to a sum, and clears it for the next step.
 inline void book(Load& load, Load& sum) noexcept {
-  store_row(&sum.force.x, load_row(&sum.force.x) + load_row(&load.force.x));
-  store_row(&sum.torque.x, load_row(&sum.torque.x) + load_row(&load.torque.x));
-  store_row(&load.force.x, Row{}), store_row(&load.torque.x, Row{});
+  store_body_row(&sum.force.x, load_body_row(&sum.force.x) + load_body_row(&load.force.x));
+  store_body_row(&sum.torque.x, load_body_row(&sum.torque.x) + load_body_row(&load.torque.x));
+  store_body_row(&load.force.x, BodyRow{}), store_body_row(&load.torque.x, BodyRow{});
 }
 
 }   // namespace bedload

@@ -21,31 +21,31 @@ struct alignas(64) PairBlock {
 };
 
 // The law wants pairs side by side: rows are turned in registers.
-inline void store_columns(const Row (&row)[4], double* x, double* y, double* z, double* fourth) {
-  const Row ab02 = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6);
-  const Row ab13 = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7);
-  const Row cd02 = __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6);
-  const Row cd13 = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
-  store_row(x, __builtin_shufflevector(ab02, cd02, 0, 1, 4, 5));
-  store_row(y, __builtin_shufflevector(ab13, cd13, 0, 1, 4, 5));
-  store_row(z, __builtin_shufflevector(ab02, cd02, 2, 3, 6, 7));
-  store_row(fourth, __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7));
+inline void store_columns(const BodyRow (&row)[4], double* x, double* y, double* z, double* fourth) {
+  const BodyRow ab02 = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6);
+  const BodyRow ab13 = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7);
+  const BodyRow cd02 = __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6);
+  const BodyRow cd13 = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
+  store_body_row(x, __builtin_shufflevector(ab02, cd02, 0, 1, 4, 5));
+  store_body_row(y, __builtin_shufflevector(ab13, cd13, 0, 1, 4, 5));
+  store_body_row(z, __builtin_shufflevector(ab02, cd02, 2, 3, 6, 7));
+  store_body_row(fourth, __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7));
 }
 
 void fetch(std::span<const Body> bodies, const PairContacts& pairs, std::size_t first, std::size_t count,
            PairBlock& b) noexcept {
   for (std::size_t k = 0; k < count; k += 4) {
-    Row apart[4], velocity[4], spin_a[4], spin_b[4];
+    BodyRow apart[4], velocity[4], spin_a[4], spin_b[4];
     for (std::size_t n = 0; n < 4; ++n) {
       const std::size_t pair = first + std::min(k + n, count - 1);   // past the end: the last one again, never used
       const Body& i = bodies[pairs.ids.lower[pair]];
       const Body& j = bodies[pairs.ids.higher[pair]];
-      const Row place_i = load_row(&i.position.x), place_j = load_row(&j.position.x);
-      const Row relative = load_row(&i.velocity.x) - load_row(&j.velocity.x);
+      const BodyRow place_i = load_body_row(&i.position.x), place_j = load_body_row(&j.position.x);
+      const BodyRow relative = load_body_row(&i.velocity.x) - load_body_row(&j.velocity.x);
       apart[n] = place_j - place_i;
       velocity[n] = __builtin_shufflevector(relative, place_i + place_j, 0, 1, 2, 7);
-      spin_a[n] = load_row(&i.spin.x);
-      spin_b[n] = load_row(&j.spin.x);
+      spin_a[n] = load_body_row(&i.spin.x);
+      spin_b[n] = load_body_row(&j.spin.x);
     }
     store_columns(apart, b.dx + k, b.dy + k, b.dz + k, b.radius_difference + k);
     store_columns(velocity, b.vx + k, b.vy + k, b.vz + k, b.radius_sum + k);
@@ -140,21 +140,21 @@ void respond_in_liquid(const HertzMindlin& law, const WetRestitution& wet, PairC
 void add_up(const PairContacts& pairs, std::size_t first, std::size_t count, const PairBlock& b,
             std::span<Load> loads) noexcept {
   std::uint32_t lower = pairs.ids.lower[first];
-  Row force = load_row(&loads[lower].force.x), torque = load_row(&loads[lower].torque.x);
+  BodyRow force = load_body_row(&loads[lower].force.x), torque = load_body_row(&loads[lower].torque.x);
   for (std::size_t k = 0; k < count; ++k) {
     if (pairs.ids.lower[first + k] != lower) {
-      store_row(&loads[lower].force.x, force), store_row(&loads[lower].torque.x, torque);
+      store_body_row(&loads[lower].force.x, force), store_body_row(&loads[lower].torque.x, torque);
       lower = pairs.ids.lower[first + k];
-      force = load_row(&loads[lower].force.x), torque = load_row(&loads[lower].torque.x);
+      force = load_body_row(&loads[lower].force.x), torque = load_body_row(&loads[lower].torque.x);
     }
-    const Row pair_force{b.fx[k], b.fy[k], b.fz[k], 0}, turn{b.tx[k], b.ty[k], b.tz[k], 0};
+    const BodyRow pair_force{b.fx[k], b.fy[k], b.fz[k], 0}, turn{b.tx[k], b.ty[k], b.tz[k], 0};
     Load& other = loads[pairs.ids.higher[first + k]];
     force += pair_force;
     torque += b.arm_a[k] * turn;
-    store_row(&other.force.x, load_row(&other.force.x) - pair_force);
-    store_row(&other.torque.x, load_row(&other.torque.x) + b.arm_b[k] * turn);
+    store_body_row(&other.force.x, load_body_row(&other.force.x) - pair_force);
+    store_body_row(&other.torque.x, load_body_row(&other.torque.x) + b.arm_b[k] * turn);
   }
-  store_row(&loads[lower].force.x, force), store_row(&loads[lower].torque.x, torque);
+  store_body_row(&loads[lower].force.x, force), store_body_row(&loads[lower].torque.x, torque);
 }
 
 }   // namespace
