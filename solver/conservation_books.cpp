@@ -8,49 +8,45 @@
 #include "solver/coupling/added_mass.hpp"
 #include "solver/coupling/void_fraction.hpp"
 #include "solver/fluid/face_loops.hpp"
+#include "solver/grains/box_walls.hpp"
+#include "solver/grains/rolling_resistance.hpp"
 
 namespace bedload {
 namespace {
 
 double mass_of(const Grains& g, std::size_t p) { return g.density[p] * sphere_volume(g.diameter[p]); }
 
-/// Energy of the springs of contacts: 2/5 F delta of Hertz's, S_t xi^2/2 of the tangential ones (docs/physics_grains.md).
+/// Energy of the springs of contacts: what laws and box say of each pair at rest where it is.
 class ContactEnergy {
  public:
-  explicit ContactEnergy(const BedScene& bed) : bed_(bed) {}
+  explicit ContactEnergy(const BedScene& bed) : box_(bed), walls_(walls_of(bed)), law_(bed.grains) {}
 
   double operator()(const State& state) const {
+    const ContactHistory& contacts = state.contacts;
     double sum = 0;
-    for (std::size_t n = 0; n < state.contacts.size(); ++n) sum += of_contact(state, n);
+    for (std::size_t n = 0; n < contacts.size(); ++n) {
+      const Overlap o = overlap(state.grains, contacts.lower[n], contacts.higher[n]);
+      sum += law_.energy(o, contacts.spring[n]);
+      if (!contacts.rolling.empty()) sum += RollingResistance::energy(law_, o, contacts.rolling[n]);
+    }
     return sum;
   }
 
  private:
-  double of_contact(const State& state, std::size_t n) const {
-    const Grains& g = state.grains;
-    const std::size_t i = state.contacts.lower[n], j = state.contacts.higher[n];
+  Overlap overlap(const Grains& g, std::uint32_t i, std::uint32_t j) const {
     const double r = g.diameter[i] / 2;
-    double depth, radius;   // overlap; R*
-    if (j < g.size()) {
-      Vec3 apart = g.position[j] - g.position[i];
-      for (int c = 0; c < 3; ++c)
-        if (bed_.sides[c] == Side::periodic) apart[c] -= bed_.length[c] * std::round(apart[c] / bed_.length[c]);
-      const double other = g.diameter[j] / 2;
-      depth = r + other - norm(apart), radius = r * other / (r + other);
-    } else {
-      const int c = static_cast<int>(j - static_cast<std::size_t>(Wall::x_low)) / 2;
-      const bool high = (j - static_cast<std::size_t>(Wall::x_low)) % 2 == 1;
-      depth = r - (high ? bed_.length[c] - g.position[i][c] : g.position[i][c]), radius = r;
+    if (j >= g.size()) {
+      const auto wall = std::ranges::find(walls_, static_cast<Wall>(j), &FlatWall::name);
+      return {.depth = wall->depth(g.position[i], r), .root_radius = std::sqrt(r)};
     }
-    if (!(depth > 0)) return 0;
-    const double poisson = bed_.grains.poisson;
-    const double stiffness =
-        bed_.grains.young_modulus / (1 - poisson * poisson) * std::sqrt(radius * depth);   // S_n, (G2)
-    const double shear = 2 * (1 - poisson) / (2 - poisson) * stiffness;
-    return 2.0 / 5 * (2.0 / 3 * stiffness * depth) * depth + shear * norm2(state.contacts.spring[n]) / 2;
+    const double other = g.diameter[j] / 2;
+    return {.depth = r + other - norm(box_.shortest(g.position[j] - g.position[i])),
+            .root_radius = std::sqrt(r * other / (r + other))};
   }
 
-  BedScene bed_;
+  PeriodicBox box_;
+  std::vector<FlatWall> walls_;
+  HertzMindlin law_;
 };
 
 /// The sums of one state.

@@ -54,6 +54,8 @@ class HertzMindlin {
 
   double normal_force(const Overlap&, Damping) const noexcept;   // F_n [N], (G3)
   double shear_stiffness(const Overlap&) const noexcept;         // S_t [N/m], (G2)
+  /// What the springs of a contact hold, 2/5 F_n delta + S_t xi^2/2 [J], F_n without damping; 0 for grains apart.
+  double energy(const Overlap&, Vec3 spring) const noexcept;
   double friction() const noexcept { return friction_; }
 
  private:
@@ -116,6 +118,11 @@ inline double HertzMindlin::normal_force(const Overlap& o, Damping damped) const
 
 inline double HertzMindlin::shear_stiffness(const Overlap& o) const noexcept {
   return o.depth > 0 ? shear_ratio_ * (normal_stiffness_ * o.root_radius * std::sqrt(o.depth)) : 0;
+}
+
+inline double HertzMindlin::energy(const Overlap& o, Vec3 spring) const noexcept {
+  if (!(o.depth > 0)) return 0;
+  return 2.0 / 5 * normal_force(o, {}) * o.depth + shear_stiffness(o) * norm2(spring) / 2;
 }
 
 }   // namespace bedload

@@ -17,6 +17,11 @@ RollingTorque RollingResistance::respond(const HertzMindlin& law, Damping damped
   return {-scale * torque, scale * spring};
 }
 
+double RollingResistance::energy(const HertzMindlin& law, const Overlap& o, Vec3 spring) noexcept {
+  const double radius = o.root_radius * o.root_radius;
+  return radius * radius * law.shear_stiffness(o) * norm2(spring) / 2;
+}
+
 namespace {
 
 void add_pair_torques(const RollingResistance& resistance, const HertzMindlin& law, std::span<const Body> bodies,

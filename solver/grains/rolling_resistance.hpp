@@ -22,6 +22,9 @@ class RollingResistance {
   RollingTorque respond(const HertzMindlin&, Damping, const Overlap&, Vec3 turning, Vec3 spring,
                         double dt) const noexcept;
 
+  /// What the rolling spring of a contact holds, R*^2 S_t psi^2/2 [J]; 0 for grains apart.
+  static double energy(const HertzMindlin&, const Overlap&, Vec3 spring) noexcept;
+
  private:
   double friction_;   // mu_r [-]
 };

@@ -60,29 +60,42 @@ TEST(EnergyBook, LetsAGrainHaveWhatItsSubmergedWeightGivesAndNoMore) {
 }
 
 TEST(EnergyBook, LetsASpringGiveBackItsEnergyAndNoMore) {
-  // Hertz: 2/5 F delta with F = 4/3 Y* sqrt(R*) delta^(3/2); Mindlin: S_t xi^2/2 with S_t = 8 G* sqrt(R* delta).
+  // Hertz: 2/5 F delta with F = 4/3 Y* sqrt(R*) delta^(3/2); Mindlin: S_t xi^2/2 with S_t = 8 G* sqrt(R* delta); rolling:
+  // R*^2 S_t psi^2/2. Pairs also across the seam, walls low and high.
   Scene scene = channel_scene();
   scene.bed.gravity = {};
   const GrainProperties& g = scene.bed.grains;
-  const double depth = 0.01 * d, xi = 0.004 * d;
+  const double depth = 0.01 * d, xi = 0.004 * d, psi = 0.02;
   const double young =
       g.young_modulus / (2 * (1 - g.poisson * g.poisson));   // Y*: grains and walls are of one material
   const double shear = g.young_modulus / (4 * (1 + g.poisson) * (2 - g.poisson));   // G*
-  for (const bool wall : {false, true}) {
-    const double radius = wall ? d / 2 : d / 4;
+  struct Touching {
+    std::vector<Vec3> places;
+    std::uint32_t partner;
+    double radius;   // R*
+  };
+  const double side = scene.bed.length.x;
+  const auto wall = [](Wall name) { return static_cast<std::uint32_t>(name); };
+  for (const Touching& contact : {Touching{{middle, middle + Vec3{d - depth, 0, 0}}, 1, d / 4},
+                                  Touching{{{d / 4, 8 * d, 8 * d}, {side - 3 * d / 4 + depth, 8 * d, 8 * d}}, 1, d / 4},
+                                  Touching{{{8 * d, 8 * d, d / 2 - depth}}, wall(Wall::z_low), d / 2},
+                                  Touching{{{8 * d, 8 * d, side - d / 2 + depth}}, wall(Wall::z_high), d / 2}}) {
+    const double radius = contact.radius;
     const double force = 4.0 / 3 * young * std::sqrt(radius) * std::pow(depth, 1.5);
     const double stiffness = 8 * shear * std::sqrt(radius * depth);
-    const double energy = 2.0 / 5 * force * depth + stiffness * xi * xi / 2;
-    State before = wall ? resting(scene, {{8 * d, 8 * d, d / 2 - depth}})
-                        : resting(scene, {middle, middle + Vec3{d - depth, 0, 0}});
+    const double sheared = stiffness * xi * xi / 2, rolled = radius * radius * stiffness * psi * psi / 2;
+    const double energy = 2.0 / 5 * force * depth + sheared + rolled;
+    ASSERT_GT(rolled, 0.01 * energy);
+    State before = resting(scene, contact.places);
     before.contacts.lower = {0};
-    before.contacts.higher = {wall ? static_cast<std::uint32_t>(Wall::z_low) : 1u};
+    before.contacts.higher = {contact.partner};
     before.contacts.spring = {{0, xi, 0}};
+    before.contacts.rolling = {{0, psi, 0}};
     for (const double surplus : {0.0, 0.2}) {
       State after = before;
       after.contacts = {};
       after.grains.velocity[0].y = std::sqrt(2 * energy * (1 + surplus) / mass_of(scene));
-      EXPECT_NEAR(*books_of(scene, before, after).energy, surplus, 1e-9) << wall;
+      EXPECT_NEAR(*books_of(scene, before, after).energy, surplus, 1e-9) << contact.partner;
     }
   }
 }
