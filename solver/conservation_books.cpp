@@ -53,7 +53,6 @@ class ContactEnergy {
 struct Sums {
   Vec3 momentum;          // of fluid and grains [kg m/s]
   double magnitude = 0;   // the same without signs
-  Vec3 driven;            // volume that moves, times its velocity: what a driving gradient works on [m4/s]
   double energy = 0;      // kinetic, and of springs [J]
 };
 
@@ -61,12 +60,7 @@ struct Sums {
 
 struct ConservationBooks::Parts {
   explicit Parts(const Scene& given)
-      : scene(given),
-        grid(given.grid),
-        smoothing(given.grid, given.smoothing),
-        springs(given.bed),
-        eps(grid),
-        flux(grid) {}
+      : scene(given), grid(given.grid), smoothing(given.grid, given.smoothing), springs(given.bed), eps(grid) {}
 
   Sums sums_of(const State&);
   double of_added_mass(const State&);
@@ -84,7 +78,7 @@ struct ConservationBooks::Parts {
   const ContactEnergy springs;
   std::vector<Stencil> stencils;
   VoidFraction eps;
-  FaceFields flux, flow, seen_flow;
+  FaceFields flow, seen_flow;
   Field<Centre> seen_eps;
   std::vector<double> void_fraction, added;
   GrainPacking packing;
@@ -123,7 +117,6 @@ Sums ConservationBooks::Parts::sums_of(const State& state) {
   const double rho = scene.bed.fluid.density, cell = grid.cell_volume();
   find_stencils(grid, grains, stencils);
   deposit_void_fraction(grid, grains, stencils, eps, smoothing);
-  deposit_solid_flux(grid, grains, stencils, flux, smoothing);
 
   const Vec3 length = grid.length();
   const double box = length.x * length.y * length.z;
@@ -133,13 +126,11 @@ Sums ConservationBooks::Parts::sums_of(const State& state) {
 
   Sums sums;
   for (int c = 0; c < 3; ++c) {
-    const double *e = eps.face.component(c), *u = state.fluid.velocity.component(c), *j = flux.component(c);
+    const double *e = eps.face.component(c), *u = state.fluid.velocity.component(c);
     const auto over = [&](auto&& value) { return cell * sum_over_faces(grid, c, value); };
     sums.momentum[c] = rho * over([=](std::size_t n) { return e[n] * u[n]; });
     sums.magnitude += rho * over([=](std::size_t n) { return e[n] * std::abs(u[n]); });
     sums.energy += rho / 2 * over([=](std::size_t n) { return e[n] * u[n] * u[n]; });
-    sums.driven[c] = scene.terms.model_b() ? over([=](std::size_t n) { return u[n]; })
-                                           : over([=](std::size_t n) { return e[n] * u[n] + j[n]; });
   }
   for (std::size_t p = 0; p < grains.size(); ++p) {
     const double mass = mass_of(grains, p);
@@ -199,22 +190,13 @@ void ConservationBooks::Parts::book_energy(const Sums& before, const Sums& after
     exchanged = std::numeric_limits<double>::infinity();
   }
   if (std::isinf(exchanged)) return;
-  double by_weight = 0, at_rest = 0;
-  for (std::size_t p = 0; p < grains.size(); ++p) {
-    const Vec3 w = sphere_volume(grains.diameter[p]) * weight(grains.density[p]);
-    Vec3 moved = to.grains.position[p] - from.grains.position[p];
-    for (int c = 0; c < 3; ++c)
-      if (grid.periodic(c)) moved[c] -= scene.bed.length[c] * std::round(moved[c] / scene.bed.length[c]);
-    by_weight += dot(w, moved) + from.search.push * norm(w) * moved.x;
-    at_rest += 1e-6 * norm(w) * grains.diameter[p];   // a bed with less counts as settled
+  if (exchanged == 0) {
+    exchanged = before.energy;
+    for (std::size_t p = 0; p < grains.size(); ++p)   // a bed with less counts as settled
+      exchanged += 1e-6 * sphere_volume(grains.diameter[p]) * norm(weight(grains.density[p])) * grains.diameter[p];
   }
-  const Vec3 length = grid.length(), gradient = 1 / (length.x * length.y * length.z) * books.driving;
-  const double by_drive = dt / 2 * dot(gradient, before.driven + after.driven);
-  const double by_lid = -dt * books.on_lid.x * from.search.lid_speed;
-
-  if (exchanged == 0) exchanged = before.energy + at_rest;
-  exchanged += std::abs(by_drive) + std::abs(by_lid) + std::abs(by_weight);
-  dissipated += by_drive + by_lid + by_weight - (after.energy - before.energy);
+  exchanged += dt * (std::abs(books.by_gradient) + std::abs(books.by_lid) + std::abs(books.by_weight));
+  dissipated += dt * (books.by_gradient + books.by_lid + books.by_weight) - (after.energy - before.energy);
   most_dissipated = std::max(most_dissipated, dissipated);
   if (exchanged > 0) worst.energy = std::max(worst.energy.value_or(0), (most_dissipated - dissipated) / exchanged);
 }

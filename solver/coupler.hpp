@@ -43,9 +43,11 @@ struct StepBooks {
   Vec3 on_lid;             // the same on the lid
   Vec3 driving;            // G on the fluid (and on grains, Model A), x and y
   Vec3 contact_on_walls;   // of grains on walls
-  /// Energy [W], means over the step. What drives: lid and G (that of the step's start) on the fluid, weight, push and, in
-  /// Model A, G on grains. What drag and viscous torque take from the motion of both phases: below zero at most near walls.
-  double driving_power = 0, exchange_loss = 0;
+  /// Energy [W], means over the step: work of the lid on the fluid; of G (that of the step's start) on the fluid and, in
+  /// Model A, on grains; of weight and push on grains, over the way they went.
+  double by_lid = 0, by_gradient = 0, by_weight = 0;
+  /// What drag and viscous torque take from the motion of both phases [W]: below zero at most near walls.
+  double exchange_loss = 0;
 };
 
 /// Wall seconds spent in each part of the step since construction, for benchmarks and the run's closing line.

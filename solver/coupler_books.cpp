@@ -7,31 +7,30 @@ namespace bedload {
 
 /// The lid's work on the fluid and G's, whose force moves with the mean of u^n and u*.
 void Coupler::Parts::book_drive_of_fluid(const State& state) {
-  books.driving_power = -books.on_lid.x * state.search.lid_speed;
+  books.by_lid = -books.on_lid.x * state.search.lid_speed;
   const Vec3 g = drive(state);
   for (int c = 0; c < 3; ++c) {
     if (g[c] == 0) continue;
     const double *eps = before.face.component(c), *u = state.fluid.velocity.component(c), *old = carried.component(c);
-    books.driving_power += scene.bed.fluid.density * grid.cell_volume() * g[c] *
-                           sum_over_faces(grid, c, [=, whole = model_b()](std::size_t n) {
-                             return (whole ? 1 : eps[n]) * 0.5 * (u[n] + old[n]);
-                           });
+    books.by_gradient += scene.bed.fluid.density * grid.cell_volume() * g[c] *
+                         sum_over_faces(grid, c, [=, whole = model_b()](std::size_t n) {
+                           return (whole ? 1 : eps[n]) * 0.5 * (u[n] + old[n]);
+                         });
   }
 }
 
-/// Weight's and G's work on the grains over the way they went.
+/// Weight's, the push's and G's work on the grains over the way they went.
 void Coupler::Parts::book_drive_of_grains(const State& state, double dt) {
   const Grains& grains = state.grains;
-  const double rho = scene.bed.fluid.density;
-  double work = 0;
+  const Vec3 g = drive(state);
   for (std::size_t p = 0; p < grains.size(); ++p) {
     if (grains.fixed[p]) continue;
+    const double volume = sphere_volume(grains.diameter[p]);
     Vec3 force = grains.density[p] * weight(grains.density[p]);
     force.x += state.search.push * norm(force);
-    if (!model_b()) force += rho * drive(state);
-    work += sphere_volume(grains.diameter[p]) * dot(force, moved[p]);
+    books.by_weight += volume / dt * dot(force, moved[p]);
+    if (!model_b()) books.by_gradient += scene.bed.fluid.density * volume / dt * dot(g, moved[p]);
   }
-  books.driving_power += work / dt;
 }
 
 /// The forces that the solve has found, into the grains' push and the books.

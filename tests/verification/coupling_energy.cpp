@@ -1,8 +1,11 @@
 // Energy of fluid and grains: nothing but what drives them may raise it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "solver/coupler.hpp"
 #include "solver/coupling/drag_laws.hpp"
+#include "solver/fluid/face_loops.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bedload::test {
@@ -35,6 +38,81 @@ INSTANTIATE_TEST_SUITE_P(Energy, Driven,
                                          EnergyCase{2.65, 1e-5, with_everything_implicit()},
                                          EnergyCase{2.65, 1e-3, with_everything_implicit()}));
 
+TEST(Work, OfTheGradientIsWhatAPlugOfFluidGains) {
+  Scene scene = fluid_scene({4, 4, 4}, {1e-3, 1e-3, 1e-3}, periodic_box, 1e-6);
+  State state = state_of(scene, {}, true);
+  state.search.gradient = 3;
+  std::ranges::fill(state.fluid.velocity.x.values, 0.1);
+  Coupler coupler(scene);
+  const double before = kinetic_energy(scene, state);
+  const double dt = coupler.step(state, 1e-3).dt;
+  const double gained = kinetic_energy(scene, state) - before;
+  ASSERT_GT(gained, 0.02 * before);
+  EXPECT_NEAR(coupler.books().by_gradient * dt / gained, 1, 1e-9);
+  EXPECT_EQ(coupler.books().by_lid, 0);
+  EXPECT_EQ(coupler.books().by_weight, 0);
+}
+
+TEST(Work, OfTheLidIsViscosityTimesTheShearSquared) {
+  const double nu = 1e-4, rate = 10;
+  Scene scene = fluid_scene({4, 4, 8}, {1e-3, 1e-3, 5e-4}, channel, nu);
+  State state = state_of(scene, {}, true);
+  const Vec3 box = scene.grid.length();
+  state.search.lid_speed = rate * box.z;
+  for_each_unknown_face(scene.grid, 0, [&](std::size_t n) {
+    const auto k = static_cast<std::ptrdiff_t>(n) % scene.grid.stride(1) - StaggeredGrid::ghosts;
+    state.fluid.velocity.x[n] = rate * (static_cast<double>(k) + 0.5) * scene.grid.h.z;
+  });
+  Coupler coupler(scene);
+  coupler.step(state, 1e-4);
+  EXPECT_NEAR(coupler.books().by_lid / (1000 * nu * rate * rate * box.x * box.y * box.z), 1, 1e-9);
+  EXPECT_EQ(coupler.books().by_gradient, 0);
+}
+
+TEST(Work, OnGrainsIsTheirSubmergedWeightPushAndGradientTimesTheirWay) {
+  const double d = 1e-3, push = 0.3, gradient = 2;
+  for (const bool whole : {false, true}) {   // in Model B the fluid alone is driven
+    Scene scene = fluid_scene({4, 4, 6}, {2 * d, 2 * d, 2 * d}, channel, 1e-5);
+    scene.bed.gravity = {0.5, 0, -9.81};
+    if (whole) scene.terms = model_b();
+    add_grains(scene, d, 2.65, 0.05);
+    // One across the seam.
+    State state = state_of(scene, {{8 * d - 1e-9, 4 * d, 6 * d}, {4 * d, 4 * d, 6 * d}}, false);
+    state.grains.velocity = {{0.02, 0, 0}, {0, 0.01, -0.01}};
+    state.search.push = push;
+    const auto after_step = [&](double asked, State& after) {
+      after = state;
+      after.search.gradient = asked;
+      Coupler coupler(scene);
+      const double dt = coupler.step(after, scene.steps.fluid_interval).dt;
+      EXPECT_NEAR(dt, scene.steps.fluid_interval, 1e-9 * dt);
+      return coupler.books();
+    };
+    State still, driven;
+    const StepBooks without = after_step(0, still), with = after_step(gradient, driven);
+    const double volume = sphere_volume(d), submerged = 1650 * volume, dt = scene.steps.fluid_interval;
+    Vec3 way;
+    for (int p = 0; p < 2; ++p) way += driven.grains.position[p] - state.grains.position[p];
+    way.x += 8 * d;
+    ASSERT_GT(way.x, 0);
+    const double weight = submerged * (dot(scene.bed.gravity, way) + push * norm(scene.bed.gravity) * way.x);
+    EXPECT_NEAR(with.by_weight * dt / weight, 1, 1e-9) << whole;
+    EXPECT_EQ(without.by_gradient, 0);
+
+    // Of the gradient: on the mean of the volume flux before and after.
+    const auto flux = [&](const State& s) {
+      double sum = 0;
+      const FaceFields eps = face_void_fraction(scene, s);
+      for_each_unknown_face(scene.grid, 0,
+                            [&](std::size_t n) { sum += (whole ? 1 : eps.x[n]) * s.fluid.velocity.x[n]; });
+      sum *= scene.grid.cell_volume();
+      for (const Vec3& v : s.grains.velocity) sum += whole ? 0 : volume * v.x;
+      return sum;
+    };
+    EXPECT_NEAR(with.by_gradient / (1000 * gradient * (flux(state) + flux(driven)) / 2), 1, 0.01) << whole;
+  }
+}
+
 TEST_P(Driven, SuspensionGainsNoMoreThanItsDriveGives) {
   // Grains that do not touch settle under a gradient, with and without a lid: kinetic energy against the work of what drives.
   const double d = 1e-3;
@@ -52,7 +130,8 @@ TEST_P(Driven, SuspensionGainsNoMoreThanItsDriveGives) {
       ASSERT_TRUE(health.finite && !health.lost_grain);
       ASSERT_EQ(health.deepest_overlap, 0);
       EXPECT_GE(coupler.books().exchange_loss, 0);
-      work += coupler.books().driving_power * health.dt;
+      const StepBooks& books = coupler.books();
+      work += (books.by_lid + books.by_gradient + books.by_weight) * health.dt;
       lost += coupler.books().exchange_loss * health.dt;
       const double energy = kinetic_energy(scene, state);
       EXPECT_LT(energy, work + 0.01 * lost) << i;
