@@ -15,30 +15,20 @@
 namespace bedload {
 namespace {
 
-/// What a coupled step changes, kept to undo it; the record and the sums of the hold are written after it only.
+/// What a coupled step may change, whole, kept to undo it; the record and the sums of the hold are written after it only.
 class StateBefore {
  public:
   void keep(const State& state) {
-    clock_ = state.clock;
-    fluid_ = state.fluid;
-    const Grains& grains = state.grains;
-    position_ = grains.position, velocity_ = grains.velocity, spin_ = grains.spin;
-    force_ = grains.mean_contact_force, torque_ = grains.mean_contact_torque;
-    contacts_ = state.contacts;
+    clock_ = state.clock, fluid_ = state.fluid, grains_ = state.grains, contacts_ = state.contacts;
   }
   void restore(State& state) const {
-    state.clock = clock_;
-    state.fluid = fluid_;
-    Grains& grains = state.grains;
-    grains.position = position_, grains.velocity = velocity_, grains.spin = spin_;
-    grains.mean_contact_force = force_, grains.mean_contact_torque = torque_;
-    state.contacts = contacts_;
+    state.clock = clock_, state.fluid = fluid_, state.grains = grains_, state.contacts = contacts_;
   }
 
  private:
   Clock clock_;
   FluidState fluid_;
-  std::vector<Vec3> position_, velocity_, spin_, force_, torque_;
+  Grains grains_;
   ContactHistory contacts_;
 };
 

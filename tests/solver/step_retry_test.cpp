@@ -76,6 +76,36 @@ TEST(StepRetry, LeavesTheStateAsItWasWhenNoRetryHelps) {
   EXPECT_TRUE(state.record.samples.time.empty());
 }
 
+TEST(StepRetry, LeavesATouchingRollingWetPairInItsHoldAsItWas) {
+  // A grain rolls off a fixed one, in a liquid that goes along with it: every memory of a contact is in use.
+  Scene scene = pushed_grain(0.3, 1000);
+  scene.steps.fluid_interval = 2e-4;
+  scene.bed.fluid.viscosity = 1e-5;
+  scene.bed.grains.rolling_friction = 0.05;
+  scene.terms.wet_restitution = scene.terms.added_mass = scene.terms.viscous_torque = true;
+  scene.bed.source.count = 2;
+  scene.bed.source.csv =
+      "x,y,z,diameter,density,fixed\n0.004,0.004,0.004,0.001,2650,1\n0.0043,0.0041,0.00495,0.001,2650,0\n";
+  Experiment experiment(scene);
+  State state = experiment.begin();
+  const auto remembers = [&] {
+    const ContactHistory& c = state.contacts;
+    const auto alive = [](const std::vector<Vec3>& v) { return !v.empty() && norm(v.back()) > 0; };
+    return c.size() == 1 && alive(c.spring) && alive(c.rolling) && !c.damping.empty() &&
+           alive(state.grains.mean_contact_force) && alive(state.grains.mean_contact_torque);
+  };
+  for (int step = 0; step < 200 && !remembers(); ++step) ASSERT_EQ(ailment(experiment.step(state)), "");
+  ASSERT_TRUE(remembers());
+  ASSERT_NE(state.search.hold_begun, 0u);
+
+  state.search.push = 1e9;
+  const std::string before = state_digest(state);
+  const StepHealth health = experiment.step(state);
+  EXPECT_NE(ailment(health), "");
+  EXPECT_EQ(health.retries, most_retries);
+  EXPECT_EQ(state_digest(state), before);
+}
+
 TEST(StepRetry, GoesBackToTheStepAskedForByAndBy) {
   const Scene scene = pushed_grain(1000, 100);
   Experiment experiment(scene);
