@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <random>
 
 #include "solver/coupler.hpp"
 #include "solver/coupling/exposure.hpp"
@@ -59,6 +61,50 @@ TEST(Exposure, DragsAGrainThatStandsOutByItsOwnFlowAndNoOther) {
   EXPECT_NEAR((with.all - without.all) / without.drag_on_top / (exposed_moment(level.back()) * 0.5 * d / height), 1,
               1e-3);
   EXPECT_NEAR((reversed.force(true).all - reversed.force(false).all) / (with.all - without.all), -1, 1e-6);
+}
+
+/// Fastest flow along x [m/s], of one field or of the difference of two.
+double fastest(const Scene& scene, const State& flow, const State* less = nullptr) {
+  double most = 0;
+  for_each_unknown_face(scene.grid, 0, [&](std::size_t n) {
+    most = std::max(most, std::abs(flow.fluid.velocity.x[n] - (less ? less->fluid.velocity.x[n] : 0)));
+  });
+  return most;
+}
+
+TEST(Exposure, IsBoundedInAFixedBedThatHoldsTheFluidFast) {
+  // Grains of all heights, flat cells, a syrup and long steps: all that the fluid keeps of a flow among the grains is what
+  // exposure gives back to it, at most 2 a m/h_z of the flow before (docs/physics_coupling.md, section 8). The flow begins as
+  // noise from face to face.
+  for (const bool model_b : {false, true}) {
+    Scene scene = fluid_scene({4, 4, 16}, {2 * d, 2 * d, 0.25 * d}, channel, 1e-4);
+    scene.bed.grains.diameter = d;
+    scene.terms.pressure_gradient = scene.terms.viscous_stress = !model_b;
+    std::mt19937_64 random(1);
+    const auto share = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    std::vector<Vec3> places = cubic_places({8, 8, 1}, {}, {8 * d, 8 * d, d}, 0, 1);
+    for (Vec3& place : places) place.z += d * share();
+    const double step = 0.5, noise = 1e-3;
+    const double held =
+        3 * std::numbers::pi * scene.bed.fluid.viscosity * step / (2 * d * d);   // B of Stokes's law alone
+    ASSERT_GT(held, 200);
+    State with = state_of(scene, places, true);
+    for_each_unknown_face(scene.grid, 0, [&](std::size_t n) { with.fluid.velocity.x[n] = noise * (2 * share() - 1); });
+    State without = with;
+    Scene exposed = scene;
+    exposed.terms.exposure = true;
+    Coupler one(exposed), other(scene);
+    ASSERT_EQ(one.step(with, step).dt, step);
+    ASSERT_EQ(other.step(without, step).dt, step);
+    const double gain = 2 * 0.5 * d * exposed_moment(0) / scene.grid.h.z, given = fastest(scene, with, &without);
+    EXPECT_GT(given, 1e-3 * gain * noise) << model_b;   // that it is there at all
+    EXPECT_LT(given, gain * noise) << model_b;
+    for (int n = 1; n < 100; ++n) {
+      ASSERT_TRUE(one.step(with, step).finite);
+      ASSERT_LT(fastest(scene, with), 1.1 * noise) << "step " << n << ", Model " << (model_b ? "B" : "A");
+    }
+    EXPECT_LT(fastest(scene, with), 0.1 * noise) << model_b;   // nothing drives it
+  }
 }
 
 }   // namespace
