@@ -1,7 +1,7 @@
-// Lift in the coupled step: a grain at rest in shear is lifted, and the fluid
-// takes the reaction.
+// Lift in the coupled step: a grain at rest in shear is lifted, and the fluid takes the reaction.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "solver/coupler.hpp"
@@ -13,26 +13,32 @@ namespace {
 
 constexpr double d = 1e-4, nu = 1e-4;
 
-/// A fixed grain at height z in the flow of a lid, cells 2 x 2 x 0.5 d; the
-/// flow starts as it would be without the grain.
+/// How a channel is cut into cells.
+struct Cells {
+  std::array<int, 3> number;
+  Vec3 edge;   // [d]
+};
+constexpr Cells coarse{{12, 12, 24}, {2, 2, 0.5}};
+
+/// A fixed grain at height z in the flow of a lid; the flow starts as it would be without the grain.
 struct Couette {
-  Couette(double z, double shear_reynolds, bool walls) : rate(shear_reynolds * nu / (d * d)) {
-    scene = fluid_scene({12, 12, 24}, {2 * d, 2 * d, 0.5 * d}, channel, nu);
+  Couette(double z, double shear_reynolds, bool walls, const Cells& cells = coarse)
+      : rate(shear_reynolds * nu / (d * d)) {
+    scene = fluid_scene(cells.number, d * cells.edge, channel, nu);
     scene.drag = DragLawName::schiller_naumann;
     scene.terms.self_disturbance = true, scene.terms.wall_forces = walls;
     scene.bed.grains.diameter = d;
     scene.steps.fluid_interval = 0.02 / rate;
-    // In the middle of a cell along x and y: there a grid does not turn a drag
-    // along x into a flow along z.
-    state = state_of(scene, {{5.5 * scene.grid.h.x, 5.5 * scene.grid.h.y, z}}, true);
+    // In the middle of a cell along x and y: there a grid does not turn a drag along x into a flow along z.
+    const double x = (cells.number[0] / 2 - 0.5) * scene.grid.h.x, y = (cells.number[1] / 2 - 0.5) * scene.grid.h.y;
+    state = state_of(scene, {{x, y, z}}, true);
     state.search.lid_speed = rate * scene.grid.length().z;
     for (int i = 0; i < scene.grid.cells[0]; ++i)
       for (int j = 0; j < scene.grid.cells[1]; ++j)
         for (int k = 0; k < scene.grid.cells[2]; ++k)
           state.fluid.velocity.x[scene.grid.index(i, j, k)] = rate * (k + 0.5) * scene.grid.h.z;
   }
-  /// What the term shear_lift adds to the force on the grain after so many
-  /// steps [N].
+  /// What the term shear_lift adds to the force on the grain after so many steps [N].
   double lift_after(int steps) const {
     const auto force = [&](bool lift) {
       Scene one = scene;
@@ -57,12 +63,35 @@ TEST(Lift, AFixedGrainInShearIsLiftedAsSaffmanAndMeiSay) {
   EXPECT_NEAR(couette.lift_after(40) / expected, 1, 0.05);
 }
 
-TEST(Lift, ATouchingGrainIsLiftedTowardsLeightonAndAcrivos) {
-  // What the grid shows of its own reflection from the wall, upwards too, is
-  // known to a few hundredths only: a quarter of the lift is missing.
-  const Couette couette(0.5 * d, 0.05, true);
-  const double a = 0.5 * d, expected = 9.22 * 1000 * std::pow(couette.rate * a * a, 2);
-  EXPECT_NEAR(couette.lift_after(40) / expected, 1, 0.35);
+/// Of 9.22 gdot^2 a^4 per fluid density (Leighton & Acrivos 1985), the lift of a grain that touches the bottom.
+double of_leighton_and_acrivos(const Cells& cells, const Terms& model) {
+  Couette couette(0.5 * d, 0.05, true, cells);
+  couette.scene.terms.pressure_gradient = model.pressure_gradient;
+  couette.scene.terms.viscous_stress = model.viscous_stress;
+  const double a = 0.5 * d;
+  return couette.lift_after(20) / (9.22 * 1000 * std::pow(couette.rate * a * a, 2));
+}
+
+Terms model_b() {
+  Terms terms;
+  terms.pressure_gradient = terms.viscous_stress = false;
+  return terms;
+}
+
+TEST(Lift, ATouchingGrainIsLiftedAsLeightonAndAcrivosSay) {
+  // Cells that show the shear at its centre, and in whose volume it and its own flow are small.
+  const Cells fine{{8, 8, 48}, {8, 8, 0.25}};
+  EXPECT_NEAR(of_leighton_and_acrivos(fine, {}), 1, 0.1);
+  EXPECT_NEAR(of_leighton_and_acrivos(fine, model_b()), 1, 0.1);
+}
+
+TEST(Lift, ATouchingGrainThatFillsMuchOfItsCellIsLiftedTooLittle) {
+  // A known error, not an agreement: the stress by which the fluid passes the grain's own force on, which Model A samples, and
+  // the table of reflections, made for less flat cells, are both taken for the wall's (docs/physics_coupling.md, section 7).
+  const double a = of_leighton_and_acrivos(coarse, {}), b = of_leighton_and_acrivos(coarse, model_b());
+  EXPECT_NEAR(a, 1, 0.35);
+  EXPECT_NEAR(b, 1, 0.2);
+  EXPECT_LT(a, b);
 }
 
 TEST(Magnus, PushesAGrainTowardsTheSideThatTurnsAgainstTheFlow) {
