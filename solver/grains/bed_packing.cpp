@@ -13,9 +13,9 @@ constexpr int substeps_per_interval = 50;
 constexpr double settled_energy = 1e-6;      // mean kinetic energy per grain / (W' d) [-]
 constexpr double weight_not_carried = 0.5;   // of a grain's own weight that its contacts may leave unbalanced [-]
 
-constexpr double highest_restitution =
-    0.9;                                // of collisions while settling: what only a thin liquid slows would never rest
-constexpr double slowest_fall = 0.01;   // of sqrt((1 - rho_f/rho) g d): slower than that, speed has no say in packing
+// What both cost in packing: docs/physics_grains.md, (G13).
+constexpr double highest_restitution = 0.9;   // of collisions while settling: what a thin liquid alone slows rests late
+constexpr double slowest_fall = 0.01;         // of sqrt((1 - rho_f/rho) g d): slower than that, speed has no say
 
 /// The same bed, with collisions that lose something.
 BedScene lossy(BedScene scene) {

@@ -18,7 +18,8 @@ Grains place_grains(const BedScene&);
 bool needs_settling(const BedScene&);
 
 /// One-way settling: submerged weight, linear (Stokes) drag to still fluid, contacts; until the mean kinetic energy per
-/// grain is below 1e-6 W' d and no grain is falling freely. Deterministic in (Grains, ContactHistory).
+/// grain is below 1e-6 W' d and no grain is falling freely. Restitution and drag are at most what docs/physics_grains.md,
+/// (G13), says. Deterministic in (Grains, ContactHistory).
 class BedPacking {
  public:
   explicit BedPacking(const BedScene&);

@@ -144,6 +144,33 @@ TEST(BedPacking, SettlesWithoutRestitutionUnderFullFrictionAtTheLongestStep) {
   }
 }
 
+TEST(BedPacking, ComesToRestSoonAtRestitutionOneWhereTheLiquidSlowsNothing) {
+  // Grains of 5 mm in water: Stokes's drag alone would take some seconds, 4000 intervals and more, to slow them.
+  BedScene scene = bed_scene(500);
+  const double larger = 10;
+  scene.fluid.viscosity = 1e-6, scene.grains.restitution = 1;
+  scene.grains.diameter *= larger, scene.length *= larger;
+  scene.grains.young_modulus = automatic_young_modulus(scene, bed_layers(scene));
+  scene.dem_step = 0.2 * rayleigh_time(0.9 * scene.grains.diameter, 2500, scene.grains.young_modulus, 0.3);
+  EXPECT_TRUE(settle(scene, 800).settled);
+}
+
+TEST(BedPacking, SinksByStokesButNoSlowerThanSpeedHasASay) {
+  BedScene scene = bed_scene(1);
+  const double d = 0.5e-3, reduced = (1 - 1000.0 / 2500) * 9.81;
+  for (const double viscosity : {1e-4, 1e-2}) {
+    scene.fluid.viscosity = viscosity;
+    Grains grains = place_grains(scene);
+    grains.diameter[0] = d, grains.position[0].z = 10 * d;
+    ContactHistory contacts;
+    BedPacking packing(scene);
+    for (int interval = 0; interval < 5; ++interval) packing.advance(grains, contacts);
+    const double stokes = reduced * 2500 * d * d / (18 * viscosity * 1000), slowest = 0.01 * std::sqrt(reduced * d);
+    ASSERT_EQ(stokes<slowest, viscosity> 1e-3);
+    EXPECT_NEAR(-grains.velocity[0].z / std::max(stokes, slowest), 1, 1e-3) << viscosity;
+  }
+}
+
 TEST(BedPacking, StaysSettledOnceItHasSettled) {
   const BedScene scene = bed_scene(200);
   Bed bed = settle(scene);
