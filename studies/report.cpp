@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "studies/bed_picture.hpp"
+#include "studies/case_warnings.hpp"
 #include "studies/database_values.hpp"
 #include "studies/html_table.hpp"
 #include "studies/published_curves.hpp"
@@ -104,6 +105,20 @@ std::string profile_section(const Database& database, const std::vector<Finished
                  }));
 }
 
+/// What the cases of the study were told, each text once.
+std::string warning_table(const Database& database) {
+  if (!has_table(database, "warnings") || !has_table(database, "cases")) return {};
+  const Rows found = database.query(
+      "SELECT label, text FROM warnings w JOIN cases c USING (case_id) WHERE in_study ORDER BY c.position, w.position");
+  if (found.rows.empty()) return {};
+  std::vector<CaseWarning> all;
+  for (const auto& row : found.rows) all.push_back({text_in(row[0]), text_in(row[1])});
+  std::string rows = header_row({"cases", "warning"}, 99, 0);
+  for (const auto& warning : shared_warnings(all))
+    rows += "<tr>" + text_cell(cases_in_words(warning)) + text_cell(warning.text) + "</tr>\n";
+  return "<h3>Range and missing terms</h3>" + html_table(rows);
+}
+
 /// One row per term and decision; a term that cases decide differently has several.
 std::string model_section(const Database& database) {
   if (!has_table(database, "models")) return {};
@@ -133,7 +148,7 @@ std::string model_section(const Database& database) {
   }
   return section("Models and why",
                  "Which terms the scenes require, the number that decided, and what leaving a term out costs.",
-                 html_table(rows));
+                 html_table(rows) + warning_table(database));
 }
 
 std::string health_section(const Database& database) {

@@ -153,6 +153,13 @@ CREATE TABLE IF NOT EXISTS models (
   PRIMARY KEY (case_id, term)
 ) STRICT;
 
+CREATE TABLE IF NOT EXISTS warnings (              -- where the scene is out of range, and which terms are missing
+  case_id                   TEXT NOT NULL,
+  position                  INTEGER NOT NULL,
+  text                      TEXT NOT NULL,
+  PRIMARY KEY (case_id, position)
+) STRICT;
+
 CREATE TABLE IF NOT EXISTS provenance (
   case_id                   TEXT PRIMARY KEY,
   version                   TEXT NOT NULL,

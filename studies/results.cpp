@@ -10,6 +10,7 @@
 #include "solver/bed/incipient_motion.hpp"
 #include "solver/coupling/drag_laws.hpp"
 #include "solver/dimensionless.hpp"
+#include "solver/required_models.hpp"
 #include "studies/database_values.hpp"
 #include "studies/result_tables.hpp"
 #include "studies/threshold_curve.hpp"
@@ -165,13 +166,6 @@ void store_tracks(Database& database, const CaseIdentity& id, const BedRecord::T
             t.wz[n]});
 }
 
-void store_models(Database& database, const CaseIdentity& id, const std::vector<ModelChoice>& models) {
-  for (std::size_t n = 0; n < models.size(); ++n)
-    insert(database, "models",
-           {id.id, whole(n), models[n].term, flag(models[n].on), flag(models[n].wanted), real_or_null(models[n].ratio),
-            models[n].reason});
-}
-
 }   // namespace
 
 void create_result_tables(Database& database) {
@@ -181,10 +175,10 @@ void create_result_tables(Database& database) {
 }
 
 void store_results(Database& database, const CaseIdentity& id, const Scene& scene, const State& state,
-                   const std::vector<ModelChoice>& models, const Provenance& made_by) {
+                   const Provenance& made_by) {
   Database::Transaction transaction(database);
-  for (const char* table : {"scenes", "ramp_points", "step_health", "thresholds", "bed_statistics", "samples", "tracks",
-                            "models", "provenance"})
+  for (const char* table :
+       {"scenes", "ramp_points", "step_health", "thresholds", "bed_statistics", "samples", "tracks", "provenance"})
     database.execute(fmt::format("DELETE FROM {} WHERE case_id = ?", table), {id.id});
   store_scene(database, id, scene, state);
   store_ramp(database, id, scene, state.record.holds);
@@ -193,11 +187,23 @@ void store_results(Database& database, const CaseIdentity& id, const Scene& scen
   store_profiles(database, id, state.record.profiles);
   store_samples(database, id, state.record.samples);
   store_tracks(database, id, state.record.tracks);
-  store_models(database, id, models);
   insert(database, "provenance",
          {id.id, made_by.version, std::int64_t{physics_version}, made_by.compiler, made_by.flags, made_by.libraries,
           made_by.host, whole(id.seed), state_digest(state)});
   update_threshold_curve(database);
+  transaction.commit();
+}
+
+void store_models(Database& database, const std::string& case_id, const Scene& scene) {
+  Database::Transaction transaction(database);
+  for (const char* table : {"models", "warnings"})
+    database.execute(fmt::format("DELETE FROM {} WHERE case_id = ?", table), {case_id});
+  std::uint64_t position = 0;
+  for (const auto& m : required_models(scene))
+    insert(database, "models",
+           {case_id, whole(position++), m.term, flag(m.on), flag(m.wanted), real_or_null(m.ratio), m.reason});
+  position = 0;
+  for (const auto& warning : warnings_of(scene)) insert(database, "warnings", {case_id, whole(position++), warning});
   transaction.commit();
 }
 

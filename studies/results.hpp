@@ -3,10 +3,8 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "scheduler/database.hpp"
-#include "solver/required_models.hpp"
 #include "solver/scene.hpp"
 #include "solver/state.hpp"
 
@@ -35,7 +33,9 @@ void create_result_tables(Database&);
 
 /// Replaces every row of the case and recomputes the threshold curve, in one transaction (a part of the caller's, if
 /// one is open).
-void store_results(Database&, const CaseIdentity&, const Scene&, const State&, const std::vector<ModelChoice>&,
-                   const Provenance&);
+void store_results(Database&, const CaseIdentity&, const Scene&, const State&, const Provenance&);
+
+/// Replaces the case's rows of `models` and `warnings`: what its scene alone says, whatever becomes of its run.
+void store_models(Database&, const std::string& case_id, const Scene&);
 
 }   // namespace bedload

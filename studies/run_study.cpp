@@ -22,6 +22,7 @@
 #include "studies/case_entry.hpp"
 #include "studies/case_file.hpp"
 #include "studies/case_identity.hpp"
+#include "studies/case_warnings.hpp"
 #include "studies/plan.hpp"
 #include "studies/results.hpp"
 #include "studies/study_file.hpp"
@@ -52,7 +53,7 @@ void store_results_of(Database& database, const fs::path& directory) {
   const auto one = read_case_directory(directory);
   const auto state = newest_state(directory);
   if (!state) throw Error(ErrorKind::corrupt, fmt::format("{} has no whole checkpoint", directory.string()));
-  store_results(database, identity_of(one), one.scene, *state, required_models(one.scene), provenance_of(directory));
+  store_results(database, identity_of(one), one.scene, *state, provenance_of(directory));
 }
 
 Position position_of(const fs::path& directory) {
@@ -95,7 +96,8 @@ class StudyRun {
   void make_directories(const Plan&);
   void copy_study_file() const;
   void enrol(Ledger&, const Plan&) const;
-  static void enlist(const fs::path& directory, std::vector<CaseEntry>&);
+  void say_warnings() const;
+  static void enlist(Database&, const fs::path& directory, std::vector<CaseEntry>&);
   void rescan(Ledger&);
   std::vector<std::string> chosen() const;
   int schedule(Ledger&);
@@ -166,17 +168,30 @@ void StudyRun::enrol(Ledger& ledger, const Plan& plan) const {
   for (const auto& bed : plan.beds) entries.push_back(bed_entry(bed));
   for (const auto& c : plan.cases) entries.push_back(case_entry(c.one));
   ledger.enrol(entries);
+  for (const auto& c : plan.cases) store_models(ledger.database(), c.one.id, c.one.scene);
   for (const auto& c : plan.cases)
     if (c.results_change) ledger.set_state(c.one.id, CaseState::pending);   // harvested again
   update_threshold_curve(ledger.database());
   transaction.commit();
 }
 
+/// Before anything runs: numbers come out also where the models do not hold.
+void StudyRun::say_warnings() const {
+  std::vector<CaseWarning> all;
+  for (const auto& one : cases_)
+    for (auto& text : warnings_of(one.scene)) all.push_back({one.label, std::move(text)});
+  for (const auto& warning : shared_warnings(all))
+    log_warning(fmt::format("{}: {}", cases_in_words(warning), warning.text));
+}
+
 /// The id of a case computed under another physics_version cannot be told from here.
-void StudyRun::enlist(const fs::path& directory, std::vector<CaseEntry>& entries) {
-  auto entry = entry_of(read_case_directory(directory));
-  if (directory.filename() == short_id(entry.id)) return entries.push_back(std::move(entry));
-  log_warning(fmt::format("{} was made under another physics_version: left out", directory.string()));
+void StudyRun::enlist(Database& database, const fs::path& directory, std::vector<CaseEntry>& entries) {
+  const auto one = read_case_directory(directory);
+  auto entry = entry_of(one);
+  if (directory.filename() != short_id(entry.id))
+    return log_warning(fmt::format("{} was made under another physics_version: left out", directory.string()));
+  if (!entry.is_bed) store_models(database, entry.id, one.scene);
+  entries.push_back(std::move(entry));
 }
 
 /// Every case that has a directory, also those that left the study file, with its results.
@@ -185,7 +200,7 @@ void StudyRun::rescan(Ledger& ledger) {
   for (const auto* kind : {"beds", "cases"}) {
     if (!fs::exists(directory_ / kind)) continue;
     for (const auto& found : fs::directory_iterator(directory_ / kind))
-      if (fs::exists(found.path() / "case.toml")) enlist(found.path(), entries);
+      if (fs::exists(found.path() / "case.toml")) enlist(ledger.database(), found.path(), entries);
   }
   std::ranges::sort(entries, {}, [](const CaseEntry& e) { return std::pair(!e.is_bed, e.label); });
   ledger.enrol(entries);
@@ -244,6 +259,7 @@ int StudyRun::run() {
   if (request_.rescan) rescan(ledger);
   const auto plan = make_plan(cases_, read_cases(database), directory_);
   refuse_to_abandon(plan);
+  say_warnings();
   copy_study_file();
   enrol(ledger, plan);
   make_directories(plan);

@@ -190,6 +190,26 @@ TEST_F(StudyLife, ExplainsTheOnlyCaseUnnamed) {
   EXPECT_EQ(unnamed.out, bedload(here(), {"explain", "tiny.toml", "rho3000-s1"}).out);
 }
 
+// In water the flow over these grains is turbulent; the bed is three grains deep.
+TEST_F(StudyLife, SaysBeforeItRunsWhereItsScenesAreOutOfRangeAndKeepsThat) {
+  const auto axis = with(small_study, "[\"3000 kg/m3\"]", "[\"3000 kg/m3\", \"2900 kg/m3\"]");
+  const auto study = with(axis, "[drive]", "[models]\nterms = [\"drag\", \"buoyancy\"]\n[drive]");
+  const auto ran = run(study);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto first = ran.err.find("started");
+  for (const auto* part : {"warning: rho3000-s1 and 1 more: a bed ", "models.terms leaves out what the rules want"})
+    EXPECT_LT(ran.err.find(part), first) << part << "\n" << ran.err;
+  const auto kept = bedload(here(), {"query", "tiny.toml",
+                                     "SELECT label, text FROM warnings JOIN cases USING (case_id) WHERE text LIKE "
+                                     "'a bed % d deep feels the flat bottom%' ORDER BY label",
+                                     "--csv"});
+  EXPECT_EQ(std::ranges::count(kept.out, '\n'), 3) << kept.out << kept.err;
+  EXPECT_NE(contents(here() / "tiny" / "report.html").find("Range and missing terms"), std::string::npos);
+  const auto before = bedload(here(), {"query", "tiny.toml", "SELECT * FROM warnings ORDER BY 1, 2", "--csv"}).out;
+  ASSERT_EQ(run(study, {"--rescan"}).code, 0);
+  EXPECT_EQ(bedload(here(), {"query", "tiny.toml", "SELECT * FROM warnings ORDER BY 1, 2", "--csv"}).out, before);
+}
+
 TEST_F(StudyLife, WritesAReport) {
   ASSERT_EQ(run(small_study).code, 0);
   EXPECT_NE(contents(here() / "tiny" / "report.html").find("<svg"), std::string::npos);

@@ -98,6 +98,18 @@ TEST_F(ReportTest, LeavesOutCasesThatLeftTheStudy) {
   EXPECT_EQ(page().find("label-c"), std::string::npos);
 }
 
+TEST_F(ReportTest, SaysWhichCasesAreOutOfRange) {
+  add_case();
+  EXPECT_EQ(page().find("Range and missing terms"), std::string::npos);
+  database_.execute("CREATE TABLE cases (case_id TEXT, position INTEGER, label TEXT, in_study INTEGER)");
+  database_.execute("INSERT INTO cases VALUES ('c', 1, 'later', 1), ('b', 0, 'first', 1), ('a', 2, 'gone', 0)");
+  for (const char* id : {"a", "b", "c"})
+    database_.execute("INSERT INTO warnings VALUES (?, 0, ?)", {std::string(id), std::string("Re > 1 & more")});
+  const std::string html = page();
+  EXPECT_NE(html.find("Range and missing terms"), std::string::npos);
+  EXPECT_NE(html.find("<td>first and 1 more</td><td>Re &gt; 1 &amp; more</td>"), std::string::npos);
+}
+
 BedView two_grains() {
   BedView view{.label = "bed", .moment = "", .grains = {}, .length = {10, 20, 5}, .diameter = 1, .speed_scale = 1};
   view.grains.resize(2);

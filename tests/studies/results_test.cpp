@@ -32,6 +32,14 @@ Scene small_scene() {
   return scene;
 }
 
+/// With a bed, and cells too high for it.
+Scene coarse_scene() {
+  Scene scene = small_scene();
+  scene.bed.source = {.kind = BedSource::Kind::poured, .count = 300, .csv = {}};
+  scene.grid.h.z = 1.25e-3, scene.grid.cells[2] = 5;   // 2.5 d
+  return scene;
+}
+
 /// Two still holds, then motion at theta 0.3 that the fourth confirms.
 State finished_state() {
   State state;
@@ -61,7 +69,6 @@ class ResultsTest : public ::testing::Test {
   ResultsTest() { create_result_tables(database_); }
   void store() {
     store_results(database_, {"id1", "d0.5mm-s1", "set1", "d0.5mm", 1}, small_scene(), finished_state(),
-                  {{.term = "drag", .on = true, .wanted = true, .ratio = 1, .reason = "there is a bed"}},
                   {"0.1", "g++", "-O2", "hdf5", "host"});
   }
   double number(const std::string& sql) const { return number_in(database_.query(sql).rows.at(0).at(0)); }
@@ -78,7 +85,6 @@ TEST_F(ResultsTest, AreTheSameRowsHoweverOftenTheyAreStored) {
   EXPECT_EQ(number("SELECT count(*) FROM scenes"), 1);
   EXPECT_EQ(number("SELECT count(*) FROM bed_statistics"), 2);
   EXPECT_EQ(number("SELECT count(*) FROM tracks WHERE grain = 7 AND vz_m_per_s = 6"), 1);
-  EXPECT_EQ(number("SELECT count(*) FROM models WHERE term = 'drag' AND is_on"), 1);
 }
 
 TEST_F(ResultsTest, TurnTheShieldsNumberIntoShearVelocityAndReynoldsNumber) {
@@ -131,6 +137,12 @@ TEST_F(ResultsTest, OfferTheTransportCurveAsAView) {
   EXPECT_EQ(number("SELECT count(*) FROM transport_curve WHERE label = 'd0.5mm-s1' AND event_flux > 0.01"), 2);
 }
 
+TEST_F(ResultsTest, SayWhichTermsASceneHasAndWhereItIsOutOfRange) {
+  for (int again = 0; again < 2; ++again) store_models(database_, "id1", coarse_scene());
+  EXPECT_EQ(number("SELECT count(*) FROM models WHERE term = 'drag' AND is_on"), 1);
+  EXPECT_EQ(number("SELECT count(*) FROM warnings WHERE text LIKE 'cells 2.5 d high%'"), 1);
+}
+
 std::vector<std::string> documented_queries() {
   std::ifstream file(std::filesystem::path(__FILE__).parent_path() / "../../docs/database.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -151,8 +163,9 @@ TEST_F(ResultsTest, AnswerTheQuestionsOfTheDocumentation) {
   entry.parameters = "{}";
   ledger.enrol({entry});
   store();
+  store_models(database_, "id1", coarse_scene());
   const auto queries = documented_queries();
-  EXPECT_EQ(queries.size(), 5u);
+  EXPECT_EQ(queries.size(), 6u);
   for (const std::string& sql : queries) EXPECT_FALSE(database_.query(sql).rows.empty()) << sql;
 }
 
