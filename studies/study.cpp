@@ -12,6 +12,8 @@
 #include "solver/grains/suspension.hpp"
 #include "solver/scene_range.hpp"
 #include "studies/case_identity.hpp"
+#include "studies/case_warnings.hpp"
+#include "studies/setting_value.hpp"
 #include "studies/study_keys.hpp"
 
 namespace bedload {
@@ -110,6 +112,52 @@ void check_placing(const Scene& scene, const Settings& settings, Problems& probl
   }
 }
 
+/// Where the cases leave the range of their models: each value of the file is blamed once for all cases that it puts there.
+class RangeProblems {
+ public:
+  explicit RangeProblems(const Study& study) : study_(study) {}
+  void add(const Case&, const Choice&, const Settings&);
+  void report(Problems&) const;
+
+ private:
+  struct Value {
+    std::string name;   // "grains.diameter[2]"
+    Place place;
+    std::vector<CaseWarning> found;
+    std::vector<std::string> hints;   // of each found
+  };
+  Value& value_of(const Choice&, const Settings&, const std::string& key);
+
+  const Study& study_;
+  std::vector<Value> values_;   // in order of first appearance
+};
+
+RangeProblems::Value& RangeProblems::value_of(const Choice& choice, const Settings& settings, const std::string& key) {
+  auto name = key;
+  for (std::size_t a = 0; a < study_.axes.size(); ++a)
+    if (study_.axes[a].key == key)
+      name = indexed(key, static_cast<std::size_t>(choice[a] - study_.axes[a].values.data()) + 1);
+  const auto known = std::ranges::find(values_, name, &Value::name);
+  return known != values_.end() ? *known : values_.emplace_back(Value{name, place_in(settings, key), {}, {}});
+}
+
+void RangeProblems::add(const Case& one, const Choice& choice, const Settings& settings) {
+  for (const auto& p : range_problems_of(one.scene)) {
+    auto& value = value_of(choice, settings, p.parameter);
+    value.found.push_back({one.label, p.message});
+    value.hints.push_back(p.hint);
+  }
+}
+
+void RangeProblems::report(Problems& problems) const {
+  for (const auto& value : values_)
+    for (const auto& shared : shared_warnings(value.found)) {
+      const auto first = std::ranges::find(value.found, shared.text, &CaseWarning::text) - value.found.begin();
+      problems.add(value.place, fmt::format("{}: {} ({})", value.name, shared.text, cases_in_words(shared)),
+                   value.hints[static_cast<std::size_t>(first)]);
+    }
+}
+
 bool is_strict(const Settings& settings) {
   const auto found = settings.find("models.strict");
   return found != settings.end() && std::get<std::string>(found->second.value) == "true";
@@ -149,6 +197,7 @@ std::vector<Case> unfold(const Study& study, const TableReader& read_table) {
   std::vector<Case> cases;
   std::set<std::string> placed;
   const bool strict = is_strict(study.settings);
+  RangeProblems out_of_range(study);
   for (const auto& choice : product(study.axes)) {
     if (excluded(study, choice)) continue;
     const auto settings = settings_of(study, choice);
@@ -156,11 +205,12 @@ std::vector<Case> unfold(const Study& study, const TableReader& read_table) {
     if (!problems.empty()) continue;
     auto one = make_case(study, choice, std::move(inputs));
     add_problems(problems_of(one.scene), settings, problems);
-    if (problems.empty() && strict) add_problems(range_problems_of(one.scene), settings, problems);
+    if (problems.empty() && strict) out_of_range.add(one, choice, settings);
     if (problems.empty() && placed.insert(one.bed_id.empty() ? one.id : one.bed_id).second)
       check_placing(one.scene, settings, problems);
     cases.push_back(std::move(one));
   }
+  if (problems.empty()) out_of_range.report(problems);
   check_twins(cases, problems);
   if (problems.empty() && cases.empty()) problems.add({}, "every case is excluded", "remove an [[exclude]]");
   problems.throw_if_any();

@@ -170,6 +170,19 @@ TEST(StudyFile, TakesViscousTorqueWithoutDrag) {
   EXPECT_TRUE(unfold(parse_study(text, "study.toml"))[0].scene.terms.viscous_torque);
 }
 
+// Every value that puts cases out of range is blamed, once for all of them.
+TEST(StudyFile, ReportsTheRangeOfAllCasesWhereItIsStrict) {
+  const auto strict = with(good_study, "[drive]", "[models]\nstrict = true\ndrag = \"stokes\"\n[drive]");
+  const auto said = complaint(with(strict, "\"0.5 mm\", \"0.6 mm\"", "\"0.5 mm\", \"50 um\", \"40 um\""));
+  EXPECT_TRUE(says(said, "study.toml:9:23: error: grains.diameter[2]: grains of "));
+  EXPECT_TRUE(says(said, "there is none here (d50um-rho2000-s1 and 3 more)\n"));
+  EXPECT_TRUE(says(said, "study.toml:9:32: error: grains.diameter[3]: grains of "));
+  EXPECT_TRUE(says(said, "(d40um-rho2000-s1 and 3 more)\n"));
+  const auto law = said.find("models.drag: grains come to Re = ");
+  EXPECT_NE(law, said.npos) << said;
+  EXPECT_EQ(said.find("models.drag: grains come to Re = ", law + 1), said.npos) << said;
+}
+
 TEST(StudyFile, TakesAnEmptyListOfTermsAsDryGrains) {
   const auto cases = unfold(parse_study(with(good_study, "[drive]", "[models]\nterms = []\n[drive]"), "study.toml"));
   for (const auto& named : named_terms) EXPECT_FALSE(cases[0].scene.terms.*named.term) << named.name;
