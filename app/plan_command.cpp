@@ -1,6 +1,6 @@
 // `bedload plan` and `bedload explain`: what would run, at which cost, with which models, and why.
 #include <algorithm>
-#include <map>
+#include <cmath>
 #include <thread>
 
 #include <fmt/format.h>
@@ -15,6 +15,7 @@
 #include "solver/required_models.hpp"
 #include "studies/case_entry.hpp"
 #include "studies/case_identity.hpp"
+#include "studies/case_warnings.hpp"
 #include "studies/database_values.hpp"
 #include "studies/explain.hpp"
 #include "studies/plan.hpp"
@@ -59,32 +60,82 @@ Rows case_rows(const Plan& plan) {
   return rows;
 }
 
-/// Scenes that differ only in numbers decide alike: one table of models for all cases whose decisions agree.
-void print_models(const Plan& plan) {
-  std::map<std::string, std::vector<const Case*>> groups;
+using Cases = std::vector<const Case*>;
+
+/// Scenes that differ only in numbers decide alike: groups of cases whose decisions agree, in order of the study.
+std::vector<Cases> groups_that_agree(const Plan& plan) {
+  std::vector<std::string> seen;
+  std::vector<Cases> groups;
   for (const auto& c : plan.cases) {
     std::string decisions;
     for (const auto& m : required_models(c.one.scene)) decisions += fmt::format("{} {} {};", m.term, m.on, m.wanted);
-    groups[decisions].push_back(&c.one);
+    const auto known = std::ranges::find(seen, decisions) - seen.begin();
+    if (known == std::ssize(seen)) seen.push_back(decisions), groups.emplace_back();
+    groups[static_cast<std::size_t>(known)].push_back(&c.one);
   }
-  for (const auto& [decisions, cases] : groups) {
-    fmt::print("\nModels of {}{}:\n{}", cases.front()->label,
-               cases.size() > 1 ? fmt::format(" and {} more", cases.size() - 1) : "",
-               printed_with_text(scene_models(cases.front()->scene)));
-    fmt::print("\n{}", printed(scene_numbers(cases.front()->scene), Form::table));
+  return groups;
+}
+
+/// The name of a number without the level at which it is quoted.
+std::string without_level(const std::string& name) { return name.substr(0, name.find(" at theta = ")); }
+
+/// Least and greatest value of a column over cases. Rows are told apart by their first column; a level that not all share
+/// is left out of it.
+Rows over_cases(const Cases& cases, Rows (*rows_of)(const Scene&), std::size_t column) {
+  Rows all = rows_of(cases.front()->scene);
+  std::vector<std::pair<double, double>> ranges;
+  for (const auto& row : all.rows) ranges.emplace_back(number_in(row[column]), number_in(row[column]));
+  const auto name = [](const std::vector<Value>& row) { return without_level(text_in(row[0])); };
+  for (const auto* one : cases)
+    for (const auto& row : rows_of(one->scene).rows) {
+      auto known = std::ranges::find(all.rows, name(row), name);
+      if (known == all.rows.end()) {
+        ranges.emplace_back(number_in(row[column]), number_in(row[column]));
+        all.rows.push_back(row);
+        continue;
+      }
+      auto& [low, high] = ranges[static_cast<std::size_t>(known - all.rows.begin())];
+      low = std::fmin(low, number_in(row[column])), high = std::fmax(high, number_in(row[column]));
+      if (text_in((*known)[0]) != text_in(row[0])) (*known)[0] = name(row);
+    }
+  for (std::size_t n = 0; n < ranges.size(); ++n) {
+    const auto low = fmt::format("{:.4g}", ranges[n].first), high = fmt::format("{:.4g}", ranges[n].second);
+    all.rows[n][column] = low == high ? real_or_null(ranges[n].first) : Value(fmt::format("{} ... {}", low, high));
+  }
+  return all;
+}
+
+/// The terms that are on, as a study file would list them.
+std::string terms_line(const Scene& scene) {
+  std::string list;
+  for (const auto& [name, term] : named_terms)
+    if (scene.terms.*term) list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", name);
+  return fmt::format("terms = [{}]", list);
+}
+
+void print_models(const Plan& plan) {
+  for (const auto& cases : groups_that_agree(plan)) {
+    const auto& first = *cases.front();
+    fmt::print("\nModels of {}{}:\n{}", first.label,
+               cases.size() > 1
+                   ? fmt::format(" and {} more (ratios from least to greatest; reasons with the numbers of "
+                                 "the first)",
+                                 cases.size() - 1)
+                   : "",
+               printed_with_text(over_cases(cases, scene_models, 3)));
+    fmt::print("what is on, for a study file:\n  {}\n", wrapped(terms_line(first.scene), 2));
+    fmt::print("\n{}", printed(over_cases(cases, scene_numbers, 1), Form::table));
   }
 }
 
 void print_warning(const std::string& warning) { fmt::print("\n{}\n", wrapped("warning: " + warning, 0)); }
 
 void print_warnings(const Plan& plan) {
-  std::vector<std::string> said;
+  std::vector<CaseWarning> all;
   for (const auto& c : plan.cases)
-    for (const auto& warning : warnings_of(c.one.scene)) {
-      if (std::ranges::find(said, warning) != said.end()) continue;
-      print_warning(fmt::format("{}: {}", c.one.label, warning));
-      said.push_back(warning);
-    }
+    for (const auto& text : warnings_of(c.one.scene)) all.push_back({c.one.label, text});
+  for (const auto& warning : shared_warnings(all))
+    print_warning(fmt::format("{}: {}", cases_in_words(warning), warning.text));
 }
 
 /// What plan and explain say of a scene, for programs.

@@ -110,7 +110,7 @@ TEST_F(BadInput, DragLawOutOfItsRangeWhereThatIsForbidden) {
   std::ofstream(here() / "tiny.toml") << stokes;
   const auto plan = bedload(here(), {"plan", "tiny.toml"});
   EXPECT_EQ(plan.code, 0) << plan.err;
-  EXPECT_TRUE(says(plan.out, "the drag law stokes is made for"));
+  EXPECT_TRUE(says(plan.out, "stokes is made for Re up to 0.1"));
 }
 
 TEST_F(BadInput, SpreadThatLeavesNoSmallestGrain) {

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "base/durable_file.hpp"
 #include "scheduler/attempt.hpp"
@@ -188,6 +189,21 @@ TEST_F(StudyLife, ExplainsTheOnlyCaseUnnamed) {
   EXPECT_EQ(unnamed.code, 0) << unnamed.err;
   EXPECT_NE(unnamed.out.find("Galileo number"), std::string::npos) << unnamed.out;
   EXPECT_EQ(unnamed.out, bedload(here(), {"explain", "tiny.toml", "rho3000-s1"}).out);
+}
+
+TEST_F(StudyLife, PlansModelsAndNumbersOfEveryCaseInOrderOfTheStudy) {
+  // light grains carry liquid along, and decide otherwise than heavy ones
+  const auto axis = with(small_study, "[\"3000 kg/m3\"]", "[\"9000 kg/m3\", \"2000 kg/m3\", \"4000 kg/m3\"]");
+  std::ofstream(here() / "tiny.toml") << axis;
+  const auto plan = bedload(here(), {"plan", "tiny.toml"}).out;
+  const auto heavy = plan.find("Models of rho9000-s1:\n"), light = plan.find("Models of rho2000-s1 and 1 more (");
+  EXPECT_LT(heavy, light) << plan;
+  EXPECT_NE(light, plan.npos) << plan;
+  const auto group = plan.substr(std::min(light, plan.size()));
+  EXPECT_NE(group.find("0.25 ... 0.5 "), group.npos) << group;   // 1/s
+  EXPECT_TRUE(std::regex_search(group, std::regex("density ratio s +2 \\.\\.\\. 4\n"))) << group;
+  EXPECT_NE(group.find("terms = [\"drag\", \"buoyancy\", "), group.npos) << group;
+  EXPECT_NE(group.find("warning: rho9000-s1 and 2 more: a bed "), group.npos) << group;
 }
 
 // In water the flow over these grains is turbulent; the bed is three grains deep.
