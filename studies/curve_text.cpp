@@ -32,7 +32,36 @@ std::size_t widest_label(const std::vector<ThresholdPoint>& curve) {
   return width;
 }
 
+/// Of a number over the curve: "0.5", "0.5 to 1"; rounded as cells are that fill a box in whole numbers.
+std::string range_of(const std::vector<ThresholdPoint>& curve, double ThresholdPoint::*member) {
+  const auto [low, high] = std::ranges::minmax(curve, {}, member);
+  const auto from = fmt::format("{:.2g}", low.*member), to = fmt::format("{:.2g}", high.*member);
+  return from == to ? from : fmt::format("{} to {}", from, to);
+}
+
+/// What people may ask about the columns.
+std::string remarks(const std::vector<ThresholdPoint>& curve) {
+  const auto any = [&](auto&& is) { return std::ranges::any_of(curve, is); };
+  std::string text;
+  if (any([](const ThresholdPoint& p) { return !std::isfinite(p.lower); }))
+    text += "lower -: a seed whose first hold moves already, or stirs; a ramp that begins lower finds the bound\n";
+  if (any([](const ThresholdPoint& p) { return !std::isfinite(p.upper); }))
+    text += "upper -: a seed whose ramp ends before its bed moves in two holds running; a higher end finds the bound\n";
+  if (any([](const ThresholdPoint& p) { return p.noisy > 0; }))
+    text +=
+        "noisy: a hold moved and the next one did not; lower lies before that first stir. Longer holds, or a larger "
+        "bed\n";
+  return text;
+}
+
 }   // namespace
+
+std::string onset_in_words(const std::vector<ThresholdPoint>& curve) {
+  const auto& first = curve.front();
+  return fmt::format("onset: {} >= {:g} per surface grain{}; cells {} d high",
+                     first.criterion == "flux" ? "flux" : "moving fraction", first.criterion_value,
+                     first.criterion == "flux" ? " and td" : "", range_of(curve, &ThresholdPoint::cell_z));
+}
 
 std::string curve_as_table(const std::vector<ThresholdPoint>& curve) {
   const std::size_t width = widest_label(curve);
@@ -47,19 +76,21 @@ std::string curve_as_table(const std::vector<ThresholdPoint>& curve) {
       text += fmt::format(" {:>14.4f}", published.shields(p.galileo));
     text += '\n';
   }
+  if (!curve.empty()) text += onset_in_words(curve) + "\n" + remarks(curve);
   return text + fmt::format("laminar beds, measured: {} +- {} ({})\n", laminar_band.shields, laminar_band.half_width,
                             laminar_band.source);
 }
 
 std::string curve_as_csv(const std::vector<ThresholdPoint>& curve) {
   std::string text =
-      "label,diameter_m,density_ratio,viscosity_m2_per_s,galileo,friction_reynolds,shields,shields_lower,"
+      "label,diameter_m,density_ratio,viscosity_m2_per_s,cell_z_d,criterion,criterion_value,galileo,friction_reynolds,"
+      "shields,shields_lower,"
       "shields_upper,status,seeds,bracketed,censored_below,censored_above,noisy,parameter_set\n";
   for (const ThresholdPoint& p : curve)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", p.label, p.diameter, p.density_ratio,
-                        p.viscosity, or_empty(p.galileo), or_empty(p.reynolds), or_empty(p.shields), or_empty(p.lower),
-                        or_empty(p.upper), p.status, p.seeds, p.bracketed, p.censored_below, p.censored_above, p.noisy,
-                        p.set);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", p.label, p.diameter,
+                        p.density_ratio, p.viscosity, p.cell_z, p.criterion, p.criterion_value, or_empty(p.galileo),
+                        or_empty(p.reynolds), or_empty(p.shields), or_empty(p.lower), or_empty(p.upper), p.status,
+                        p.seeds, p.bracketed, p.censored_below, p.censored_above, p.noisy, p.set);
   return text;
 }
 
@@ -73,6 +104,9 @@ std::string curve_as_json(const std::vector<ThresholdPoint>& curve) {
                       {"diameter_m", p.diameter},
                       {"density_ratio", p.density_ratio},
                       {"viscosity_m2_per_s", p.viscosity},
+                      {"cell_z_d", p.cell_z},
+                      {"criterion", p.criterion},
+                      {"criterion_value", p.criterion_value},
                       {"galileo", p.galileo},
                       {"friction_reynolds", p.reynolds},
                       {"shields", p.shields},

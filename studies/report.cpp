@@ -46,7 +46,8 @@ std::string curve_table(const std::vector<ThresholdPoint>& curve) {
 
 std::string threshold_section(const std::vector<ThresholdPoint>& curve) {
   const std::string body = curve.empty() ? threshold_figure(curve) + "<p>No case has finished yet.</p>"
-                                         : threshold_figure(curve) + curve_table(curve);
+                                         : threshold_figure(curve) + curve_table(curve) + "<p class='caption'>" +
+                                               escaped(onset_in_words(curve)) + "</p>\n";
   return section("Threshold of motion",
                  "θc = τ<sub>b</sub>/((ρ<sub>p</sub> − ρ<sub>f</sub>) g d) at which the bed begins to move: median "
                  "over the packing seeds, bars from the lowest "

@@ -178,6 +178,9 @@ CREATE TABLE IF NOT EXISTS threshold_curve (       -- per parameter set, over it
   diameter_m                REAL NOT NULL,
   density_ratio             REAL NOT NULL,
   viscosity_m2_per_s        REAL NOT NULL,
+  cell_z_d                  REAL NOT NULL,         -- height of the cells, in diameters
+  criterion                 TEXT NOT NULL,         -- flux | moving_fraction
+  criterion_value           REAL NOT NULL,
   galileo                   REAL,
   friction_reynolds         REAL,                  -- Re* at shields, or at the one bound there is
   shields                   REAL,                  -- theta_c, median

@@ -84,9 +84,9 @@ void summarise(const std::vector<SeedThreshold>& seeds, ThresholdPoint& point) {
 /// Every finished seed that counts, in the curve's order.
 Rows seeds_in_order(const Database& database) {
   return database.query(fmt::format(
-      "SELECT s.parameter_set, s.set_label, s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.galileo, t.status, "
-      "t.shields, "
-      "t.shields_lower, t.shields_upper FROM scenes s JOIN thresholds t USING (case_id) WHERE t.decides = 1 AND {} "
+      "SELECT s.parameter_set, s.set_label, s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.galileo, "
+      "s.cell_z_m / s.diameter_m, t.criterion, t.value, t.status, t.shields, t.shields_lower, t.shields_upper FROM "
+      "scenes s JOIN thresholds t USING (case_id) WHERE t.decides = 1 AND {} "
       "ORDER BY s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.parameter_set, s.seed",
       in_study(database)));
 }
@@ -105,8 +105,11 @@ std::vector<ThresholdPoint> curve_from_thresholds(const Database& database) {
       point.density_ratio = number_in(row[3]);
       point.viscosity = number_in(row[4]);
       point.galileo = number_in(row[5]);
+      point.cell_z = number_in(row[6]);
+      point.criterion = text_in(row[7]);
+      point.criterion_value = number_in(row[8]);
     }
-    seeds.back().push_back({text_in(row[6]), number_in(row[7]), number_in(row[8]), number_in(row[9])});
+    seeds.back().push_back({text_in(row[9]), number_in(row[10]), number_in(row[11]), number_in(row[12])});
   }
   for (std::size_t n = 0; n < curve.size(); ++n) summarise(seeds[n], curve[n]);
   return curve;
@@ -120,11 +123,11 @@ void update_threshold_curve(Database& database) {
   Database::Transaction transaction(database);
   database.execute("DELETE FROM threshold_curve");
   for (const ThresholdPoint& p : curve_from_thresholds(database))
-    database.execute(
-        "INSERT INTO threshold_curve VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-        {p.set, p.label, p.diameter, p.density_ratio, p.viscosity, real_or_null(p.galileo), real_or_null(p.reynolds),
-         real_or_null(p.shields), real_or_null(p.lower), real_or_null(p.upper), p.status, count(p.seeds),
-         count(p.bracketed), count(p.censored_below), count(p.censored_above), count(p.noisy)});
+    database.execute("INSERT INTO threshold_curve VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                     {p.set, p.label, p.diameter, p.density_ratio, p.viscosity, p.cell_z, p.criterion,
+                      p.criterion_value, real_or_null(p.galileo), real_or_null(p.reynolds), real_or_null(p.shields),
+                      real_or_null(p.lower), real_or_null(p.upper), p.status, count(p.seeds), count(p.bracketed),
+                      count(p.censored_below), count(p.censored_above), count(p.noisy)});
   transaction.commit();
 }
 
@@ -132,9 +135,10 @@ std::vector<ThresholdPoint> threshold_curve(const Database& database) {
   std::vector<ThresholdPoint> curve;
   if (!has_table(database, "threshold_curve")) return curve;
   const Rows found = database.query(
-      "SELECT parameter_set, label, diameter_m, density_ratio, viscosity_m2_per_s, galileo, friction_reynolds, "
-      "shields, "
-      "shields_lower, shields_upper, status, seeds, bracketed, censored_below, censored_above, noisy FROM "
+      "SELECT parameter_set, label, diameter_m, density_ratio, viscosity_m2_per_s, cell_z_d, criterion, "
+      "criterion_value, "
+      "galileo, friction_reynolds, shields, shields_lower, shields_upper, status, seeds, bracketed, censored_below, "
+      "censored_above, noisy FROM "
       "threshold_curve "
       "ORDER BY diameter_m, density_ratio, viscosity_m2_per_s, parameter_set");
   const auto whole = [](const Value& value) { return static_cast<std::uint64_t>(std::get<std::int64_t>(value)); };
@@ -144,17 +148,20 @@ std::vector<ThresholdPoint> threshold_curve(const Database& database) {
                      .diameter = number_in(row[2]),
                      .density_ratio = number_in(row[3]),
                      .viscosity = number_in(row[4]),
-                     .galileo = number_in(row[5]),
-                     .reynolds = number_in(row[6]),
-                     .shields = number_in(row[7]),
-                     .lower = number_in(row[8]),
-                     .upper = number_in(row[9]),
-                     .status = text_in(row[10]),
-                     .seeds = whole(row[11]),
-                     .bracketed = whole(row[12]),
-                     .censored_below = whole(row[13]),
-                     .censored_above = whole(row[14]),
-                     .noisy = whole(row[15])});
+                     .cell_z = number_in(row[5]),
+                     .criterion = text_in(row[6]),
+                     .criterion_value = number_in(row[7]),
+                     .galileo = number_in(row[8]),
+                     .reynolds = number_in(row[9]),
+                     .shields = number_in(row[10]),
+                     .lower = number_in(row[11]),
+                     .upper = number_in(row[12]),
+                     .status = text_in(row[13]),
+                     .seeds = whole(row[14]),
+                     .bracketed = whole(row[15]),
+                     .censored_below = whole(row[16]),
+                     .censored_above = whole(row[17]),
+                     .noisy = whole(row[18])});
   return curve;
 }
 

@@ -32,7 +32,7 @@ class ReportTest : public ::testing::Test {
  protected:
   ReportTest() { create_result_tables(database_); }
   void add_point(const std::string& set, const char* status, Value shields, Value lower, Value upper) {
-    database_.execute("INSERT INTO threshold_curve VALUES (?,?,5e-4,2,1e-5,3.5,1.4,?,?,?,?,1,1,0,0,0)",
+    database_.execute("INSERT INTO threshold_curve VALUES (?,?,5e-4,2,1e-5,0.5,'flux',0.01,3.5,1.4,?,?,?,?,1,1,0,0,0)",
                       {set, set, shields, lower, upper, std::string(status)});
   }
   void add_case() {
@@ -79,6 +79,7 @@ TEST_F(ReportTest, ShowsValuesFilledAndOneSidedBoundsOpen) {
   add_point("b", "censored_above", Value(), 0.44, Value());
   const std::string html = page();
   EXPECT_NE(html.find("a: theta_c = 0.1700, between 0.1500 and 0.1800"), std::string::npos);
+  EXPECT_NE(html.find("onset: flux &gt;= 0.01 per surface grain and td; cells 0.5 d high"), std::string::npos);
   const std::size_t bound = html.find("b: theta_c &gt; 0.4400");
   ASSERT_NE(bound, std::string::npos);
   EXPECT_NE(html.substr(bound - 140, 140).find("fill='#fff'"), std::string::npos);

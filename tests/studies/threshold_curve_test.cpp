@@ -25,8 +25,8 @@ class ThresholdCurveTest : public ::testing::Test {
     const std::string id = set + "-" + std::to_string(seed);
     database_.execute(
         "INSERT INTO scenes VALUES "
-        "(?,?,?,?,?,?,0.05,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,1,'di_felice',1,1,1,0)",
-        {id, id, set, "label-" + set, std::int64_t{seed}, diameter});
+        "(?,?,?,?,?,?,0.05,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,?,'di_felice',1,1,1,0)",
+        {id, id, set, "label-" + set, std::int64_t{seed}, diameter, cell_z});
     database_.execute("INSERT INTO thresholds VALUES (?,'flux',0.01,1,?,?,?,?)",
                       {id, status, real_or_null(shields), real_or_null(lower), real_or_null(upper)});
     update_threshold_curve(database_);
@@ -37,6 +37,7 @@ class ThresholdCurveTest : public ::testing::Test {
     return curve.at(0);
   }
 
+  double cell_z = 0.25e-3;   // [m]
   TemporaryDirectory directory_;
   Database database_{directory_.path() / "study.db", Database::Mode::write};
 };
@@ -98,12 +99,13 @@ TEST_F(ThresholdCurveTest, PrintsTheSameBytesInWhateverOrderTheCasesFinished) {
   add_seed("a", 2, 5e-4, "bracketed", 0.1 + 0.2, 0.13, 0.4);
   add_seed("a", 1, 5e-4, "censored_below", open_end, open_end, 0.06);
   const std::string csv = curve_as_csv(threshold_curve(database_));
-  EXPECT_EQ(
-      csv,
-      "label,diameter_m,density_ratio,viscosity_m2_per_s,galileo,friction_reynolds,shields,shields_lower,shields_upper,"
-      "status,seeds,bracketed,censored_below,censored_above,noisy,parameter_set\n"
-      "label-a,0.0005,2,1e-05,3.5,2.2135943621178655,,,0.4,censored_below,2,1,1,0,0,a\n"
-      "label-b,0.0006,2,1e-05,3.5,1.5652475842498528,0.2,0.19,0.22,bracketed,1,1,0,0,0,b\n");
+  EXPECT_EQ(csv,
+            "label,diameter_m,density_ratio,viscosity_m2_per_s,cell_z_d,criterion,criterion_value,galileo,friction_"
+            "reynolds,shields,shields_lower,shields_upper,"
+            "status,seeds,bracketed,censored_below,censored_above,noisy,parameter_set\n"
+            "label-a,0.0005,2,1e-05,0.5,flux,0.01,3.5,2.2135943621178655,,,0.4,censored_below,2,1,1,0,0,a\n"
+            "label-b,0.0006,2,1e-05,0.4166666666666667,flux,0.01,3.5,1.5652475842498528,0.2,0.19,0.22,bracketed,1,1,0,"
+            "0,0,b\n");
 }
 
 TEST_F(ThresholdCurveTest, WritesNumbersThatReadBackToTheSameBits) {
@@ -118,6 +120,26 @@ TEST_F(ThresholdCurveTest, WritesNumbersThatReadBackToTheSameBits) {
 TEST_F(ThresholdCurveTest, ShowsOneSidedBoundsToPeopleAsInequalities) {
   add_seed("a", 1, 5e-4, "censored_above", open_end, 0.44, open_end);
   EXPECT_NE(curve_as_table(threshold_curve(database_)).find("> 0.4400"), std::string::npos);
+}
+
+TEST_F(ThresholdCurveTest, SaysWhatCountsAsOnsetOnWhichCells) {
+  add_seed("a", 1, 5e-4, "bracketed", 0.16, 0.15, 0.18);
+  const auto said = curve_as_table(threshold_curve(database_));
+  EXPECT_NE(said.find("\nonset: flux >= 0.01 per surface grain and td; cells 0.5 d high\n"), said.npos) << said;
+  EXPECT_EQ(said.find("lower -"), said.npos) << said;
+  EXPECT_EQ(said.find("noisy:"), said.npos) << said;
+  cell_z = 0.5e-3;
+  add_seed("b", 1, 5e-4, "bracketed", 0.16, 0.15, 0.18);
+  EXPECT_NE(curve_as_table(threshold_curve(database_)).find("; cells 0.5 to 1 d high\n"), said.npos);
+  EXPECT_EQ(nlohmann::json::parse(curve_as_json(threshold_curve(database_)))[1]["criterion"], "flux");
+}
+
+TEST_F(ThresholdCurveTest, SaysWhatAMissingBoundAndANoisyRampMean) {
+  add_seed("a", 1, 5e-4, "noisy", 0.16, open_end, 0.18);
+  const auto said = curve_as_table(threshold_curve(database_));
+  EXPECT_NE(said.find("\nlower -: "), said.npos) << said;
+  EXPECT_EQ(said.find("\nupper -: "), said.npos) << said;
+  EXPECT_NE(said.find("\nnoisy: "), said.npos) << said;
 }
 
 }   // namespace
