@@ -59,9 +59,8 @@ CaseEntry entry(const CaseInputs& inputs, const std::string& label) {
 
 /// The label without its seed: "d0.5mm-s3" -> "d0.5mm".
 std::string without_seed(const std::string& label, std::uint64_t seed) {
-  const auto ending = fmt::format("s{}", seed);
-  if (label == ending) return "case";
-  return label.ends_with("-" + ending) ? label.substr(0, label.size() - ending.size() - 1) : label;
+  const auto ending = fmt::format("-s{}", seed);
+  return label.ends_with(ending) ? label.substr(0, label.size() - ending.size()) : label;
 }
 
 }   // namespace
@@ -72,8 +71,9 @@ CaseEntry entry_of(const CaseDirectory& directory) { return entry(directory.inpu
 
 CaseIdentity identity_of(const CaseDirectory& directory) {
   const auto seed = directory.scene.bed.source.seed;
+  const bool seeded = directory.inputs.has("bed.seed");
   return {case_id(directory.inputs), directory.label, parameter_set_id(directory.inputs),
-          without_seed(directory.label, seed), seed};
+          seeded ? without_seed(directory.label, seed) : directory.label, seed};
 }
 
 }   // namespace bedload

@@ -51,6 +51,16 @@ bool excluded(const Study& study, const Choice& choice) {
   return std::ranges::any_of(study.exclusions, matches);
 }
 
+/// Text as it may stand in a label, which is a file name and meets globs.
+std::string fit_for_label(const std::string& text) {
+  std::string fit;
+  for (const char c : text) {
+    if (c == ' ') continue;
+    fit += c == '/' || c == '*' || c == '[' || c == ']' || c == ',' ? '_' : c;
+  }
+  return fit;
+}
+
 /// The value as it stands in a label: "0.5 mm" -> 0.5mm, "2000 kg/m3" -> 2000, a list of terms -> its initials.
 std::string in_label(const Setting& setting) {
   if (const auto* words = std::get_if<std::vector<std::string>>(&setting.value)) {
@@ -58,27 +68,22 @@ std::string in_label(const Setting& setting) {
     for (const auto& word : *words) initials += word[0];
     return initials;
   }
-  std::string text;
   const bool density = std::holds_alternative<Quantity>(setting.value) &&
                        std::get<Quantity>(setting.value).dimension == dimension::density;
   const auto end = density && setting.text.ends_with("kg/m3") ? setting.text.size() - 5 : setting.text.size();
-  for (const char c : setting.text.substr(0, end)) {
-    if (c == ' ') continue;
-    text += c == '/' || c == '*' || c == '[' || c == ']' || c == ',' ? '_' : c;
-  }
-  return text;
+  return fit_for_label(setting.text.substr(0, end));
 }
 
 void append(std::string& label, const std::string& part) { label += (label.empty() ? "" : "-") + part; }
 
-/// Label of a set: its place on every axis but the seed's.
+/// Label of a set: its place on every axis but the seed's; the study's name where there is none.
 std::string label_of(const Study& study, const Choice& choice) {
   std::string label;
   for (std::size_t a = 0; a < study.axes.size(); ++a) {
     const auto& key = study.axes[a].key;
     if (key != "bed.seed") append(label, std::string(find_key(key)->label) + in_label(*choice[a]));
   }
-  return label;
+  return label.empty() ? fit_for_label(study.name) : label;
 }
 
 Settings settings_of(const Study& study, const Choice& choice) {
@@ -172,8 +177,6 @@ Case make_case(const Study& study, const Choice& choice, CaseInputs inputs) {
     made.seed = static_cast<std::uint64_t>(inputs.number("bed.seed"));
     append(made.label, fmt::format("s{}", made.seed));
   }
-  if (made.label.empty()) made.label = "case";
-  if (made.set_label.empty()) made.set_label = "case";
   made.scene = scene_of(inputs);
   made.inputs = std::move(inputs);
   return made;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "studies/case_entry.hpp"
 #include "studies/case_identity.hpp"
 #include "tests/studies/study_fixture.hpp"
 
@@ -31,6 +32,20 @@ TEST(Study, UnfoldsTheProductOfItsAxes) {
   EXPECT_EQ(cases[7].label, "d0.6mm-rho3000-s2");
   EXPECT_EQ(cases[0].set, cases[1].set);
   EXPECT_NE(cases[0].set, cases[2].set);
+}
+
+TEST(Study, NamesACaseWithoutAxesAfterItself) {
+  const auto one = with(with(with(good_study, "[\"0.5 mm\", \"0.6 mm\"]", "\"0.5 mm\""),
+                             "[\"2000 kg/m3\", \"3000 kg/m3\"]", "\"2000 kg/m3\""),
+                        "seed = { count = 2 }", "");
+  const auto seeded = cases_of(one).at(0);
+  EXPECT_EQ(seeded.label, "screening-s1");
+  EXPECT_EQ(seeded.set_label, "screening");
+  EXPECT_EQ(identity_of({seeded.label, seeded.inputs, seeded.scene, {}}).set_label, "screening");
+  const auto empty = with(with(one, "name = \"screening\"", "name = \"water-s1\""), "count = 300", "source = \"none\"");
+  const auto bare = cases_of(empty).at(0);
+  EXPECT_EQ(bare.label, "water-s1");
+  EXPECT_EQ(identity_of({bare.label, bare.inputs, bare.scene, {}}).set_label, "water-s1");
 }
 
 TEST(Study, LeavesOutWhatIsExcluded) {
