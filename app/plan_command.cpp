@@ -116,13 +116,10 @@ std::string terms_line(const Scene& scene) {
 void print_models(const Plan& plan) {
   for (const auto& cases : groups_that_agree(plan)) {
     const auto& first = *cases.front();
-    fmt::print("\nModels of {}{}:\n{}", first.label,
-               cases.size() > 1
-                   ? fmt::format(" and {} more (ratios from least to greatest; reasons with the numbers of "
-                                 "the first)",
-                                 cases.size() - 1)
-                   : "",
-               printed_with_text(over_cases(cases, scene_models, 3)));
+    const auto others = fmt::format(
+        " and {} more (ratios from least to greatest; reasons with the numbers of the first)", cases.size() - 1);
+    const auto heading = fmt::format("Models of {}{}:", first.label, cases.size() > 1 ? others : "");
+    fmt::print("\n{}\n{}", wrapped(heading, 0), printed_with_text(over_cases(cases, scene_models, 3)));
     fmt::print("what is on, for a study file:\n  {}\n", wrapped(terms_line(first.scene), 2));
     fmt::print("\n{}", printed(over_cases(cases, scene_numbers, 1), Form::table));
   }

@@ -16,6 +16,7 @@
 #include "studies/case_file.hpp"
 #include "studies/report.hpp"
 #include "studies/study_directory.hpp"
+#include "studies/study_file.hpp"
 #include "studies/threshold_curve.hpp"
 
 namespace bedload {
@@ -66,6 +67,10 @@ std::vector<BedView> views(const std::vector<CaseEntry>& cases, const std::files
 int curve_command(const StudyOptions& options) {
   const auto place = find_study(options.study, options.out);
   const auto curve = threshold_curve(open_results(place));
+  if (curve.empty())
+    log_note(has_ramp(read_study(place.file)) ? "no case with a ramp has finished yet"
+                                              : "no case of this study has a ramp: there is no threshold to show");
+  if (curve.empty() && options.form == Form::table) return 0;
   fmt::print("{}", options.form == Form::csv    ? curve_as_csv(curve)
                    : options.form == Form::json ? curve_as_json(curve)
                                                 : curve_as_table(curve));

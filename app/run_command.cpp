@@ -14,6 +14,7 @@
 #include "scheduler/request.hpp"
 #include "studies/case_runner.hpp"
 #include "studies/run_study.hpp"
+#include "studies/study_file.hpp"
 
 namespace bedload {
 
@@ -66,10 +67,12 @@ int run_command(const RunOptionsOfCommand& options) {
                               .sink = options.quiet ? static_cast<ProgressSink*>(&silence) : &printer});
   if (options.prepare) return code;
   log_note(fmt::format("wall time {}", duration_text(seconds() - began)));
-  if (code == 75) log_note(fmt::format("stopped with work left; go on with: bedload run {}", place.name));
+  const auto named = options.study.out ? place.directory.string() : place.name;   // in the commands to come
+  if (code == 75) log_note(fmt::format("stopped with work left; go on with: bedload run {}", named));
   if (code == 0 || code == 1) log_note(fmt::format("report in {}", write_report(place).string()));
-  if (code == 0) log_note(fmt::format("bedload curve {} shows the thresholds", place.name));
-  if (code == 1) log_note(fmt::format("bedload explain {} CASE says why a case failed", place.name));
+  if (code == 0 && has_ramp(read_study(place.file)))
+    log_note(fmt::format("bedload curve {} shows the thresholds", named));
+  if (code == 1) log_note(fmt::format("bedload explain {} CASE says why a case failed", named));
   return code;
 }
 

@@ -220,6 +220,11 @@ std::vector<Case> unfold(const Study& study, const TableReader& read_table) {
   return cases;
 }
 
+bool has_ramp(const Study& study) {
+  return std::ranges::any_of(unfold(study),
+                             [](const Case& one) { return one.scene.onset.method == Onset::Method::ramp; });
+}
+
 fs::path result_directory(const Study& study, const std::optional<fs::path>& out) {
   return out ? *out : study.file.parent_path() / study.name;
 }

@@ -53,6 +53,9 @@ struct Case {
 /// problems of all cases at once (Error study_invalid).
 std::vector<Case> unfold(const Study&, const TableReader& = read_text);
 
+/// True if some case has a ramp, which alone gives a threshold.
+bool has_ramp(const Study&);
+
 /// The directory that holds a study's results: named after the study, beside its file; or `out`.
 std::filesystem::path result_directory(const Study&, const std::optional<std::filesystem::path>& out);
 

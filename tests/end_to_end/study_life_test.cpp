@@ -226,6 +226,19 @@ TEST_F(StudyLife, SaysBeforeItRunsWhereItsScenesAreOutOfRangeAndKeepsThat) {
   EXPECT_EQ(bedload(here(), {"query", "tiny.toml", "SELECT * FROM warnings ORDER BY 1, 2", "--csv"}).out, before);
 }
 
+TEST_F(StudyLife, EndsWithTheCommandThatShowsItsThresholdsIfItHasAny) {
+  const auto ran = run(small_study, {"--out", "elsewhere"});
+  EXPECT_NE(ran.err.find("bedload curve elsewhere shows the thresholds"), std::string::npos) << ran.err;
+  EXPECT_EQ(bedload(here(), {"curve", "elsewhere"}).code, 0);
+  const auto still = run(with(small_study, "[drive]", "[onset]\nmethod = \"none\"\n[drive]"));
+  EXPECT_EQ(still.code, 0) << still.err;
+  EXPECT_EQ(still.err.find("bedload curve"), std::string::npos) << still.err;
+  const auto curve = bedload(here(), {"curve", "tiny.toml"});
+  EXPECT_NE(curve.err.find("no case of this study has a ramp"), std::string::npos) << curve.err;
+  EXPECT_EQ(curve.code, 0);
+  EXPECT_EQ(curve.out, "");
+}
+
 TEST_F(StudyLife, WritesAReport) {
   ASSERT_EQ(run(small_study).code, 0);
   EXPECT_NE(contents(here() / "tiny" / "report.html").find("<svg"), std::string::npos);
