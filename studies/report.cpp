@@ -44,8 +44,9 @@ std::string curve_table(const std::vector<ThresholdPoint>& curve) {
   return html_table(rows);
 }
 
-std::string threshold_section(const std::vector<ThresholdPoint>& curve) {
-  const std::string body = curve.empty() ? threshold_figure(curve) + "<p>No case has finished yet.</p>"
+std::string threshold_section(const std::vector<ThresholdPoint>& curve, std::size_t finished) {
+  const auto none = finished == 0 ? "<p>No case has finished yet.</p>" : "<p>No finished case has a ramp.</p>";
+  const std::string body = curve.empty() ? threshold_figure(curve) + none
                                          : threshold_figure(curve) + curve_table(curve) + "<p class='caption'>" +
                                                escaped(onset_in_words(curve)) + "</p>\n";
   return section("Threshold of motion",
@@ -206,12 +207,16 @@ std::string provenance_section(const Database& database, const ReportRequest& re
 }
 
 std::string summary(const std::vector<ThresholdPoint>& curve, std::size_t cases) {
-  if (curve.empty()) return "no results yet";
+  if (cases == 0) return "no results yet";
+  const auto finished = fmt::format("{} finished case{}", cases, cases == 1 ? "" : "s");
+  if (curve.empty()) return finished + ", no ramp";
   double low = NAN, high = NAN;
   for (const ThresholdPoint& p : curve) low = std::fmin(low, p.shields), high = std::fmax(high, p.shields);
-  const std::string range = std::isfinite(low) ? fmt::format(", θc from {:.3f} to {:.3f}", low, high) : "";
-  return fmt::format("{} parameter set{}, {} finished case{}{}", curve.size(), curve.size() == 1 ? "" : "s", cases,
-                     cases == 1 ? "" : "s", range);
+  const auto from = fmt::format("{:.3f}", low), to = fmt::format("{:.3f}", high);
+  const auto range = !std::isfinite(low) ? std::string()
+                     : from == to        ? ", θc = " + from
+                                         : fmt::format(", θc from {} to {}", from, to);
+  return fmt::format("{} parameter set{}, {}{}", curve.size(), curve.size() == 1 ? "" : "s", finished, range);
 }
 
 }   // namespace
@@ -227,7 +232,7 @@ std::string report_html(const Database& database, const ReportRequest& request) 
              "bedload</title><style>{1}</style></head>\n<body><main>\n<header><h1>{0}</h1><p>{2}{3}{4}</p></header>\n",
              title, report_style, summary(curve, cases.size()), request.written.empty() ? "" : " · ",
              escaped(request.written)) +
-         threshold_section(curve) + ramp_section(database, cases) + bed_section(request.beds) +
+         threshold_section(curve, cases.size()) + ramp_section(database, cases) + bed_section(request.beds) +
          history_section(database, cases) + profile_section(database, cases) + model_section(database) +
          health_section(database) + provenance_section(database, request) + "</main></body></html>\n";
 }

@@ -54,6 +54,12 @@ void draw_published(SvgPlot& plot, double low, double high) {
   }
 }
 
+std::string bounds_of(const ThresholdPoint& p) {
+  const bool from = std::isfinite(p.lower), to = std::isfinite(p.upper);
+  if (from && to) return fmt::format(", between {:.4f} and {:.4f}", p.lower, p.upper);
+  return to ? fmt::format(", below {:.4f}", p.upper) : from ? fmt::format(", above {:.4f}", p.lower) : "";
+}
+
 void draw_point(SvgPlot& plot, const ThresholdPoint& p, Marker shape, std::string_view colour) {
   const auto about = [&](std::string_view value) {
     return fmt::format("{}: theta_c {} at Re* = {:.3g}, {} ({} seed{})", p.label, value, p.reynolds, p.status, p.seeds,
@@ -62,7 +68,7 @@ void draw_point(SvgPlot& plot, const ThresholdPoint& p, Marker shape, std::strin
   if (std::isfinite(p.shields)) {
     if (std::isfinite(p.lower) && std::isfinite(p.upper)) plot.vertical_bar(p.reynolds, p.lower, p.upper, colour);
     plot.marker({p.reynolds, p.shields}, shape, colour, true,
-                about(fmt::format("= {:.4f}, between {:.4f} and {:.4f}", p.shields, p.lower, p.upper)));
+                about(fmt::format("= {:.4f}{}", p.shields, bounds_of(p))));
     return;
   }
   const bool above = std::isfinite(p.lower);
@@ -188,6 +194,9 @@ std::int64_t last_hold(const Database& database, const FinishedCase& of) {
              : std::get<std::int64_t>(found.rows[0][0]);
 }
 
+/// For people holds count from 1; -1 in the database is the settled bed.
+std::string hold_in_words(std::int64_t hold) { return hold < 0 ? "settling" : fmt::format("hold {}", hold + 1); }
+
 double top_of(const Profile& profile) { return profile.porosity.empty() ? 1 : profile.porosity.back().y; }
 
 }   // namespace
@@ -201,7 +210,7 @@ std::string porosity_figure(const Database& database, const FinishedCase& of) {
   if (!before.porosity.empty()) plot.line(before.porosity, {still, 1.8, ""});
   plot.line(after.porosity, {ours, 1.8, ""});
   plot.note({0.24, 0.93 * top_of(after)}, "settled", "#77838c");
-  plot.note({0.24, 0.86 * top_of(after)}, fmt::format("after hold {}", last), ours);
+  plot.note({0.24, 0.86 * top_of(after)}, fmt::format("after {}", hold_in_words(last)), ours);
   return plot.svg();
 }
 
@@ -215,7 +224,7 @@ std::string velocity_figure(const Database& database, const FinishedCase& of) {
                {"height z/d  [–]", 0, std::ceil(top_of(after))});
   plot.line(after.fluid, {ours, 1.8, ""});
   plot.line(after.grains, {other, 1.8, ""});
-  plot.note({0.5 * fastest, 0.17 * top_of(after)}, fmt::format("fluid, hold {}", last), ours);
+  plot.note({0.5 * fastest, 0.17 * top_of(after)}, fmt::format("fluid, {}", hold_in_words(last)), ours);
   plot.note({0.5 * fastest, 0.10 * top_of(after)}, "grains", other);
   return plot.svg();
 }

@@ -85,6 +85,40 @@ TEST_F(ReportTest, ShowsValuesFilledAndOneSidedBoundsOpen) {
   EXPECT_NE(html.substr(bound - 140, 140).find("fill='#fff'"), std::string::npos);
 }
 
+TEST_F(ReportTest, SaysBoundsThatAreThereAndNoOthers) {
+  add_point("a", "bracketed", 0.15, Value(), 0.1614);
+  add_point("b", "bracketed", 0.15, 0.14, Value());
+  add_point("c", "noisy", 0.15, Value(), Value());
+  const std::string html = page();
+  for (const char* part :
+       {"a: theta_c = 0.1500, below 0.1614 at", "b: theta_c = 0.1500, above 0.1400 at", "c: theta_c = 0.1500 at"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  EXPECT_FALSE(std::regex_search(html, std::regex("\\bnan\\b")));
+}
+
+TEST_F(ReportTest, SaysARangeOnlyWhereThereIsOne) {
+  add_case();
+  add_point("a", "bracketed", 0.17, 0.15, 0.18);
+  EXPECT_NE(page().find("1 finished case, θc = 0.170<"), std::string::npos);
+  add_point("b", "bracketed", 0.19, 0.15, 0.2);
+  EXPECT_NE(page().find("1 finished case, θc from 0.170 to 0.190<"), std::string::npos);
+}
+
+TEST_F(ReportTest, KnowsFinishedCasesWithoutARamp) {
+  add_case();
+  database_.execute("DELETE FROM thresholds");
+  EXPECT_NE(page().find("1 finished case, no ramp"), std::string::npos);
+  EXPECT_NE(page().find("No finished case has a ramp"), std::string::npos);
+}
+
+// The database counts holds from 0 and calls the settled bed -1; this case's profiles are of hold 1 there.
+TEST_F(ReportTest, CountsHoldsFromOne) {
+  add_case();
+  const std::string html = page();
+  EXPECT_NE(html.find("after hold 2<"), std::string::npos);
+  EXPECT_NE(html.find("fluid, hold 2<"), std::string::npos);
+}
+
 TEST_F(ReportTest, NamesEveryPublishedCurve) {
   for (const char* name :
        {"Soulsby 1997", "Brownlie 1981", "Parker 2003", "Cao 2006", "Guo 2002", "van Rijn 1984", "0.12 ± 0.03"})
