@@ -104,6 +104,11 @@ Value ValueReader::words() const {
   std::vector<std::string> read;
   for (std::size_t n = 0; n < node.items.size(); ++n) {
     const auto its_name = indexed(name, n + 1);
+    if (node.items[n].text == "auto") {
+      problems.add(node.items[n].place, fmt::format("{}: \"auto\" stands for a whole list, not in one", its_name),
+                   "`bedload plan` prints the list that \"auto\" stands for: copy it and add to it");
+      return std::nullopt;
+    }
     const auto one = ValueReader{key, its_name, node.items[n], problems}.word();
     if (!one) return std::nullopt;
     const auto& word = std::get<std::string>(*one);

@@ -148,6 +148,8 @@ constexpr LaterKey later_keys[] = {
 
 char in_lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
+std::string_view last_part(std::string_view path) { return path.substr(path.rfind('.') + 1); }
+
 /// Levenshtein distance, whatever the case of the letters.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -164,13 +166,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Keeps the candidate nearest to a misspelling, if it is near: at most a third of the letters differ.
+/// Keeps the candidate nearest to a misspelling, if it is near: at most a third of the letters of its last part differ, and at
+/// most three. Farther words are other words.
 class Nearest {
  public:
-  explicit Nearest(std::string_view misspelt) : misspelt_(misspelt), best_(misspelt.size() / 3 + 1) {}
+  explicit Nearest(std::string_view misspelt)
+      : misspelt_(misspelt), best_(std::clamp<std::size_t>(last_part(misspelt).size() / 3, 1, 3) + 1) {}
   void consider(std::string_view candidate) {
     const auto distance = edit_distance(misspelt_, candidate);
-    if (distance < best_ || (distance == best_ && nearest_.empty())) best_ = distance, nearest_ = candidate;
+    if (distance < best_) best_ = distance, nearest_ = candidate;
   }
   std::string_view get() const { return nearest_; }
 
@@ -227,6 +231,21 @@ std::string_view nearest_key(std::string_view path) {
       nearest.consider(key.path.substr(0, dot));
   }
   return nearest.get();
+}
+
+std::string keys_beside(std::string_view path) {
+  const auto table = path.substr(0, path.rfind('.') + 1);   // "drive.shields.", or nothing
+  std::vector<std::string_view> names;
+  if (table.empty()) names = {"format"};
+  for (const auto& key : keys) {
+    if (!key.path.starts_with(table)) continue;
+    const auto rest = key.path.substr(table.size()), name = rest.substr(0, rest.find('.'));
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  if (table.empty()) names.push_back("exclude");
+  std::string list;
+  for (const auto name : names) list.append(list.empty() ? "" : ", ").append(name);
+  return list;
 }
 
 std::string_view nearest_word(std::string_view word, std::string_view choices) {

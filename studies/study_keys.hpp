@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "base/units.hpp"
@@ -39,7 +40,9 @@ std::string_view later_key(std::string_view path);
 
 /// The known key nearest to a misspelt one, by edit distance whatever the case; empty if none is near.
 std::string_view nearest_key(std::string_view path);
-/// The same among words parted by '|'.
+/// The keys and tables that may stand where `path` does: "from, ratio, step, steps" for drive.shields.to.
+std::string keys_beside(std::string_view path);
+/// The nearest of words parted by '|'; empty if none is near.
 std::string_view nearest_word(std::string_view word, std::string_view choices);
 /// True if `word` is one of the words parted by '|'.
 bool is_one_of(std::string_view word, std::string_view choices);

@@ -83,7 +83,8 @@ void Reader::unknown(const std::string& path, Place place) {
     return problems_.add(place, fmt::format("{} is not in this version ({})", path, what), "leave the key out");
   const auto nearest = nearest_key(path);
   problems_.add(place, fmt::format("{} is not a key of a study file", path),
-                nearest.empty() ? "docs/study_files.md lists the keys" : fmt::format("did you mean {}?", nearest));
+                nearest.empty() ? fmt::format("its place takes {}; docs/study_files.md says more", keys_beside(path))
+                                : fmt::format("did you mean {}?", nearest));
 }
 
 void Reader::value_or_axis(const StudyKey& key, const Node& node, Settings& into, bool axes_allowed) {

@@ -29,6 +29,28 @@ TEST(StudyFile, SuggestsTheNearestKey) {
   EXPECT_TRUE(says(complaint(with(good_study, "[fluid]", "[fluids]")), "did you mean fluid?"));
 }
 
+TEST(StudyFile, SaysWhatThereIsWhereNothingIsNear) {
+  EXPECT_TRUE(
+      says(complaint(with(good_study, "spread", "d50")),
+           "grains.d50 is not a key of a study file\nhint: its place takes diameter, density, spread, friction, "
+           "restitution, poisson, rolling_friction, stiffness; "));
+  EXPECT_TRUE(says(complaint(with(good_study, "steps = 12", "steps = 12, to = 3")),
+                   "drive.shields.to is not a key of a study file\nhint: its place takes from, ratio, step, steps; "));
+  EXPECT_TRUE(
+      says(complaint(with(good_study, "[fluid]", "[water]")),
+           "hint: its place takes format, name, fluid, grains, bed, box, drive, onset, models, steps, record, run, "
+           "exclude; "));
+  EXPECT_TRUE(says(complaint(with(good_study, "\"lid\"", "\"wind\"")),
+                   "drive.kind: \"wind\" is not known\nhint: one of lid, pressure, push, through_flow, none"));
+  EXPECT_TRUE(says(complaint(with(good_study, "length", "lenght")), "did you mean box.length?"));
+}
+
+TEST(StudyFile, TellsHowToAddATermToTheAutomaticOnes) {
+  EXPECT_TRUE(says(complaint(with(good_study, "[drive]", "[models]\nterms = [\"auto\", \"exposure\"]\n[drive]")),
+                   "study.toml:23:10: error: models.terms[1]: \"auto\" stands for a whole list, not in one\n"
+                   "hint: `bedload plan` prints the list that \"auto\" stands for"));
+}
+
 TEST(StudyFile, SuggestsTheNearestWord) {
   EXPECT_TRUE(says(complaint(with(good_study, "\"lid\"", "\"lidd\"")),
                    "did you mean \"lid\"? It is one of lid, pressure, push, through_flow, none"));
