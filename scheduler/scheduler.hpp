@@ -35,6 +35,8 @@ struct SchedulerWorld {
   std::function<Position(const std::filesystem::path& directory)> newest;
   /// Writes the results of a finished case (not of a bed), within the transaction that marks it done.
   std::function<void(Database&, const std::filesystem::path& case_directory)> on_finished;
+  /// Writes what is worth knowing of a case (not of a bed) that failed.
+  std::function<void(Database&, const std::filesystem::path& case_directory)> on_failed;
   std::function<double()> clock;     // monotonic [s]
   std::function<int()> interrupts;   // how often the user has pressed Ctrl-C so far: InterruptCounter::count
 };

@@ -59,7 +59,10 @@ void Scheduler::settle(Work& work, const std::vector<Attempt>& attempts, bool as
   const bool on_request = asked || read_request(work.directory).has_value();
   switch (judgement.verdict) {
     case Verdict::done: break;
-    case Verdict::failed: set_state(work, CaseState::failed, judgement.reason); break;
+    case Verdict::failed:
+      set_state(work, CaseState::failed, judgement.reason);
+      if (!work.entry.is_bed) world_.on_failed(ledger_->database(), work.directory);
+      break;
     case Verdict::set_aside:
       work.set_aside = work.disk_refused = true;
       set_state(work, CaseState::pending, judgement.reason);

@@ -61,18 +61,18 @@ CREATE TABLE IF NOT EXISTS ramp_points (           -- one row per hold, means ov
   PRIMARY KEY (case_id, hold)
 ) STRICT;
 
-CREATE TABLE IF NOT EXISTS step_health (           -- one row per hold: the worst of its fluid steps
+CREATE TABLE IF NOT EXISTS step_health (           -- one row per hold: the worst of its fluid steps, named as in the checkpoint
   case_id                   TEXT NOT NULL,
   hold                      INTEGER NOT NULL,
   steps                     INTEGER NOT NULL,      -- fluid steps
   shortest_step_s           REAL NOT NULL,
   longest_step_s            REAL NOT NULL,
   retries                   INTEGER NOT NULL,      -- undone and taken again shorter
-  courant_number            REAL NOT NULL,
+  cfl                       REAL NOT NULL,         -- Courant number
   deepest_overlap           REAL NOT NULL,         -- per diameter of the smaller grain
   grain_travel              REAL NOT NULL,         -- per cell edge
-  solver_residual           REAL NOT NULL,         -- of the projection, of its right-hand side
-  divergence                REAL NOT NULL,         -- |div(eps u + J)| T that a step left
+  divergence                REAL NOT NULL,         -- that the projection's linear solve left, of its right-hand side
+  divergence_left           REAL NOT NULL,         -- |div(eps u + J)| T that a step left
   void_clamps               INTEGER NOT NULL,      -- summed over grains and steps
   face_clamps               INTEGER NOT NULL,      -- summed over faces and steps
   disturbance_clamps        INTEGER NOT NULL,

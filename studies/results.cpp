@@ -114,19 +114,17 @@ void store_ramp(Database& database, const CaseIdentity& id, const Scene& scene, 
 }
 
 /// Columns are in the order of HealthMeasures::each; what counts something is whole.
-void store_health(Database& database, const CaseIdentity& id, const BedRecord::Health& h) {
+template <class Measures, class Number>
+void store_health_of_hold(Database& database, const std::string& case_id, std::uint64_t hold, const Measures& measures,
+                          Number&& number) {
   constexpr std::string_view real[] = {"shortest_step", "longest_step",   "cfl", "deepest_overlap", "grain_travel",
                                        "divergence",    "divergence_left"};
-  for (std::size_t k = 0; k < h.hold.size(); ++k) {
-    std::vector<Value> row;
-    row.emplace_back(id.id);
-    row.push_back(whole(h.hold[k]));
-    BedRecord::Health::Measures::each(h.measures, [&](std::string_view name, const auto& column, std::string_view) {
-      const bool is_real = std::ranges::find(real, name) != std::end(real);
-      row.push_back(is_real ? Value(column[k]) : whole(column[k]));
-    });
-    insert(database, "step_health", row);
-  }
+  std::vector<Value> row{case_id, whole(hold)};
+  Measures::each(measures, [&](std::string_view name, const auto& measure, std::string_view) {
+    const bool is_real = std::ranges::find(real, name) != std::end(real);
+    row.push_back(is_real ? Value(number(measure)) : whole(number(measure)));
+  });
+  insert(database, "step_health", row);
 }
 
 /// The study's own criterion, and flux at 1e-3 (where rearrangements begin to count) and 1e-2 for every study alike.
@@ -177,12 +175,11 @@ void create_result_tables(Database& database) {
 void store_results(Database& database, const CaseIdentity& id, const Scene& scene, const State& state,
                    const Provenance& made_by) {
   Database::Transaction transaction(database);
-  for (const char* table :
-       {"scenes", "ramp_points", "step_health", "thresholds", "bed_statistics", "samples", "tracks", "provenance"})
+  for (const char* table : {"scenes", "ramp_points", "thresholds", "bed_statistics", "samples", "tracks", "provenance"})
     database.execute(fmt::format("DELETE FROM {} WHERE case_id = ?", table), {id.id});
   store_scene(database, id, scene, state);
   store_ramp(database, id, scene, state.record.holds);
-  store_health(database, id, state.record.health);
+  store_health(database, id.id, state);
   store_thresholds(database, id, scene.onset, state.record);
   store_profiles(database, id, state.record.profiles);
   store_samples(database, id, state.record.samples);
@@ -191,6 +188,19 @@ void store_results(Database& database, const CaseIdentity& id, const Scene& scen
          {id.id, made_by.version, std::int64_t{physics_version}, made_by.compiler, made_by.flags, made_by.libraries,
           made_by.host, whole(id.seed), state_digest(state)});
   update_threshold_curve(database);
+  transaction.commit();
+}
+
+void store_health(Database& database, const std::string& case_id, const State& state) {
+  Database::Transaction transaction(database);
+  database.execute("DELETE FROM step_health WHERE case_id = ?", {case_id});
+  const auto& finished = state.record.health;
+  for (std::size_t k = 0; k < finished.hold.size(); ++k)
+    store_health_of_hold(database, case_id, static_cast<std::uint64_t>(finished.hold[k]), finished.measures,
+                         [k](const auto& column) { return column[k]; });
+  const auto& search = state.search;
+  if (search.phase == Search::holding && search.health.steps > 0)
+    store_health_of_hold(database, case_id, search.hold, search.health, [](double measure) { return measure; });
   transaction.commit();
 }
 

@@ -35,6 +35,9 @@ void create_result_tables(Database&);
 /// one is open).
 void store_results(Database&, const CaseIdentity&, const Scene&, const State&, const Provenance&);
 
+/// Replaces the case's rows of `step_health`: of its finished holds, and of the one under way in a state that is not the last.
+void store_health(Database&, const std::string& case_id, const State&);
+
 /// Replaces the case's rows of `models` and `warnings`: what its scene alone says, whatever becomes of its run.
 void store_models(Database&, const std::string& case_id, const Scene&);
 

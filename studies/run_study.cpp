@@ -56,6 +56,12 @@ void store_results_of(Database& database, const fs::path& directory) {
   store_results(database, identity_of(one), one.scene, *state, provenance_of(directory));
 }
 
+/// How a case that failed went, up to its last checkpoint.
+void store_health_of(Database& database, const fs::path& directory) {
+  if (const auto state = newest_state(directory))
+    store_health(database, identity_of(read_case_directory(directory)).id, *state);
+}
+
 Position position_of(const fs::path& directory) {
   const auto newest = newest_position(directory);
   const bool is_bed = directory.parent_path().filename() == "beds";
@@ -114,8 +120,11 @@ SchedulerWorld StudyRun::world() const {
   const auto seconds = [] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   };
-  return {
-      .newest = position_of, .on_finished = store_results_of, .clock = seconds, .interrupts = InterruptCounter::count};
+  return {.newest = position_of,
+          .on_finished = store_results_of,
+          .on_failed = store_health_of,
+          .clock = seconds,
+          .interrupts = InterruptCounter::count};
 }
 
 /// Results that would fall out of the study are worth a question.

@@ -153,6 +153,17 @@ TEST_F(StudyLife, TriesAFailedCaseAgainOnlyWhenAsked) {
   EXPECT_EQ(again.code, 0) << again.err;
 }
 
+TEST_F(StudyLife, KeepsHowTheStepsOfAFailedCaseWent) {
+  const auto study = with(small_study, "count = 100", "source = \"none\"");
+  ASSERT_EQ(run(study, {"--prepare"}).code, 0);
+  const auto directory = here() / "tiny" / "by-label" / "rho3000";
+  ASSERT_EQ(bedload(here(), {"case", "tiny/by-label/rho3000", "--until", "1 ms"}).code, 0);
+  close_attempt(directory, open_attempt(directory), Cause::numerical, "made up");
+  EXPECT_EQ(run(study).code, 1);
+  const auto sql = "SELECT state, hold, steps > 0 AS stepped FROM step_health JOIN cases USING (case_id)";
+  EXPECT_EQ(bedload(here(), {"query", "tiny.toml", sql, "--csv"}).out, "state,hold,stepped\nfailed,0,1\n");
+}
+
 TEST_F(StudyLife, RunsAPreparedCaseByHand) {
   ASSERT_EQ(run(with(small_study, "count = 100", "source = \"none\""), {"--prepare"}).code, 0);
   const auto label = "tiny/by-label/rho3000";

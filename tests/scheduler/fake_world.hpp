@@ -169,12 +169,14 @@ class FakeStudy {
     Database database(study / "study.db", Database::Mode::write);
     Ledger ledger(database, study);
     ledger.enrol(entries);
-    const SchedulerWorld world{read_position,
-                               [this](Database&, const std::filesystem::path& d) {
-                                 if (no_results) throw Error(ErrorKind::internal, "a bed without a surface");
-                                 harvested.push_back(d.filename().string());
-                               },
-                               [&x] { return x.now; }, [this] { return interrupts; }};
+    const SchedulerWorld world{
+        read_position,
+        [this](Database&, const std::filesystem::path& d) {
+          if (no_results) throw Error(ErrorKind::internal, "a bed without a surface");
+          harvested.push_back(d.filename().string());
+        },
+        [this](Database&, const std::filesystem::path& d) { failures.push_back(d.filename().string()); },
+        [&x] { return x.now; }, [this] { return interrupts; }};
     return Scheduler(ledger, x, listener, world, options).run();
   }
 
@@ -191,7 +193,7 @@ class FakeStudy {
   Listener listener;
   SchedulerOptions options{2, {}, 60};
   std::vector<CaseEntry> entries;
-  std::vector<std::string> harvested;
+  std::vector<std::string> harvested, failures;   // directories whose results, and whose failure, were recorded
   int interrupts = 0;
   bool no_results = false;
 

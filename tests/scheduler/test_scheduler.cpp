@@ -87,6 +87,16 @@ TEST(Scheduler, FailsTheCasesOfABedThatFailed) {
   EXPECT_EQ(study.state_of("a"), "failed");
 }
 
+TEST(Scheduler, RecordsWhatIsKnownOfACaseThatFailedButNotOfABed) {
+  FakeStudy study;
+  study.add_bed("bed");
+  study.add_case("a");
+  study.add_case("b");
+  study.executor.scripts["bed"] = study.executor.scripts["a"] = {Act::error(Cause::numerical, 70)};
+  EXPECT_EQ(study.run().exit_code, 1);
+  EXPECT_EQ(study.failures, Names{"a"});
+}
+
 TEST(Scheduler, ResumesWhatWasInterrupted) {
   FakeStudy study;
   study.add_case("a");

@@ -122,8 +122,28 @@ TEST_F(ResultsTest, SayHowWellTheStepsOfEveryHoldWent) {
   EXPECT_EQ(number("SELECT steps FROM step_health WHERE hold = 0"), 100);
   EXPECT_EQ(number("SELECT retries FROM step_health"), 103);
   EXPECT_EQ(number("SELECT deepest_overlap FROM step_health"), 105);
-  EXPECT_EQ(number("SELECT divergence FROM step_health"), 108);
+  EXPECT_EQ(number("SELECT divergence_left FROM step_health"), 108);
   EXPECT_EQ(number("SELECT limited_by_weight FROM step_health"), 117);
+}
+
+TEST_F(ResultsTest, NameMeasuresOfStepsAsTheCheckpointDoes) {
+  std::vector<std::string> names{"case_id", "hold"};
+  const HoldHealth measures;
+  HoldHealth::each(measures, [&](std::string_view name, double, std::string_view unit) {
+    names.push_back(std::string(name) + (unit == "s" ? "_s" : ""));
+  });
+  EXPECT_EQ(database_.query("SELECT * FROM step_health").columns, names);
+}
+
+TEST_F(ResultsTest, SayHowTheHoldUnderWayWent) {
+  State state = finished_state();
+  state.search.phase = Search::holding;
+  state.search.hold = 1;
+  state.search.health.steps = 12;
+  state.search.health.divergence_left = 0.25;
+  for (int again = 0; again < 2; ++again) store_health(database_, "id1", state);
+  EXPECT_EQ(number("SELECT count(*) FROM step_health"), 2);
+  EXPECT_EQ(number("SELECT steps FROM step_health WHERE hold = 1 AND divergence_left = 0.25"), 12);
 }
 
 TEST_F(ResultsTest, NameTheFinalStateByItsDigest) {
