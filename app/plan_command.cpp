@@ -8,6 +8,7 @@
 
 #include "app/commands.hpp"
 #include "app/tables.hpp"
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "scheduler/bed_sharing.hpp"
@@ -158,17 +159,17 @@ void print_summary(const Study& study, const Plan& plan, const fs::path& results
   for (const auto& c : plan.cases) add(predicted_cost(c.one.scene), c.done);
   for (const auto& bed : plan.beds) add(predicted_cost(scene_of(bed)), has_bed(bed_directory(results, case_id(bed))));
   const auto done = std::ranges::count(plan.cases, true, &PlannedCase::done);
-  fmt::print("{}: {} case{} ({} new, {} kept, {} extended; {} done), {} dropped, {} beds; results in {}\n", study.name,
-             plan.cases.size(), plan.cases.size() == 1 ? "" : "s", count(Fate::fresh), count(Fate::kept),
-             count(Fate::extended), done, plan.dropped.size(), plan.beds.size(), results.string());
+  fmt::print("{}: {} ({} new, {} kept, {} extended; {} done), {} dropped, {}; results in {}\n", study.name,
+             counted(plan.cases.size(), "case"), count(Fate::fresh), count(Fate::kept), count(Fate::extended), done,
+             plan.dropped.size(), counted(plan.beds.size(), "bed"), results.string());
   fmt::print(
-      "about {:.2g} core-hours for whole ramps (a ramp ends two steps after onset), about {} on {} cores; about {:.2g} "
+      "about {:.2g} core-hours for whole ramps (a ramp ends two holds after onset), about {} on {}; about {:.2g} "
       "MB "
       "on disk\n\n",
       core_seconds / 3600,
       duration_text(core_seconds /
                     std::max<double>(1, std::min<double>(cores, static_cast<double>(plan.cases.size())))),
-      cores, bytes / 1e6);
+      counted(cores, "core"), bytes / 1e6);
 }
 
 /// The case in the study file as it stands, or one that left it.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "base/counted.hpp"
 #include "base/durable_file.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
@@ -127,7 +128,7 @@ int retry_command(const StudyOptions& options) {
     close_attempt(directory, open_attempt(directory), Cause::stopped, "retry asked for");
     ++again;
   }
-  log_note(fmt::format("{} failed cases are pending again; go on with: bedload run {}", again, place.name));
+  log_note(fmt::format("{} pending again; go on with: bedload run {}", counted(again, "failed case"), place.name));
   return 0;
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/commands.hpp"
 #include "app/tables.hpp"
+#include "base/counted.hpp"
 #include "base/durable_file.hpp"
 #include "scheduler/heartbeat.hpp"
 #include "scheduler/interrupts.hpp"
@@ -78,7 +79,7 @@ std::string summary_of(const std::vector<Standing>& all, const StudyPlace& place
     ++cases, ++counts[state_in_words(s)];
     workers += s.worker.has_value();
   }
-  std::string text = fmt::format("{}: {} case{}:", place.name, cases, cases == 1 ? "" : "s");
+  std::string text = fmt::format("{}: {}:", place.name, counted(cases, "case"));
   for (const auto& [state, count] : counts) text += fmt::format(" {} {},", count, state);
   text.back() = ';';
   text += fmt::format(" {:.3g} core-hours spent, about {:.2g} left", core_hours_spent, left);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/counted.hpp"
 #include "base/log.hpp"
 
 namespace bedload {
@@ -51,8 +52,8 @@ std::string duration_text(double seconds) {
 }
 
 std::string summary(const Progress& p) {
-  std::string text = fmt::format("{} of {} cases done", p.done, p.cases);
-  if (p.beds_done < p.beds) text += fmt::format(", {} of {} beds ready", p.beds_done, p.beds);
+  std::string text = fmt::format("{} of {} done", p.done, counted(p.cases, "case"));
+  if (p.beds_done < p.beds) text += fmt::format(", {} of {} ready", p.beds_done, counted(p.beds, "bed"));
   if (!p.running.empty()) text += fmt::format(", {} at work", p.running.size());
   if (p.failed > 0) text += fmt::format(", {} failed", p.failed);
   if (p.stopped > 0) text += fmt::format(", {} stopped", p.stopped);

@@ -52,7 +52,9 @@ void Scheduler::heed_interrupts() {
   const int interrupts = world_.interrupts();
   if (interrupts >= 1 && !stopping_) {
     stopping_ = true;
-    sink_->event(fmt::format("stopping: {} workers write a checkpoint; Ctrl-C again kills them", running_.size()));
+    sink_->event(running_.size() == 1 ? "stopping: 1 worker writes a checkpoint; Ctrl-C again kills it"
+                                      : fmt::format("stopping: {} workers write a checkpoint; Ctrl-C again kills them",
+                                                    running_.size()));
     for (auto& r : running_) stop(r);
   }
   if (interrupts >= 2 && !killed_) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.hpp"
 #include "studies/bed_picture.hpp"
 #include "studies/case_warnings.hpp"
 #include "studies/database_values.hpp"
@@ -208,7 +209,7 @@ std::string provenance_section(const Database& database, const ReportRequest& re
 
 std::string summary(const std::vector<ThresholdPoint>& curve, std::size_t cases) {
   if (cases == 0) return "no results yet";
-  const auto finished = fmt::format("{} finished case{}", cases, cases == 1 ? "" : "s");
+  const auto finished = counted(cases, "finished case");
   if (curve.empty()) return finished + ", no ramp";
   double low = NAN, high = NAN;
   for (const ThresholdPoint& p : curve) low = std::fmin(low, p.shields), high = std::fmax(high, p.shields);
@@ -216,7 +217,7 @@ std::string summary(const std::vector<ThresholdPoint>& curve, std::size_t cases)
   const auto range = !std::isfinite(low) ? std::string()
                      : from == to        ? ", θc = " + from
                                          : fmt::format(", θc from {} to {}", from, to);
-  return fmt::format("{} parameter set{}, {}{}", curve.size(), curve.size() == 1 ? "" : "s", finished, range);
+  return fmt::format("{}, {}{}", counted(curve.size(), "parameter set"), finished, range);
 }
 
 }   // namespace

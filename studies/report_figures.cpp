@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/counted.hpp"
 #include "solver/dimensionless.hpp"
 #include "studies/database_values.hpp"
 #include "studies/published_curves.hpp"
@@ -62,8 +63,8 @@ std::string bounds_of(const ThresholdPoint& p) {
 
 void draw_point(SvgPlot& plot, const ThresholdPoint& p, Marker shape, std::string_view colour) {
   const auto about = [&](std::string_view value) {
-    return fmt::format("{}: theta_c {} at Re* = {:.3g}, {} ({} seed{})", p.label, value, p.reynolds, p.status, p.seeds,
-                       p.seeds == 1 ? "" : "s");
+    return fmt::format("{}: theta_c {} at Re* = {:.3g}, {} ({})", p.label, value, p.reynolds, p.status,
+                       counted(p.seeds, "seed"));
   };
   if (std::isfinite(p.shields)) {
     if (std::isfinite(p.lower) && std::isfinite(p.upper)) plot.vertical_bar(p.reynolds, p.lower, p.upper, colour);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/build_info.hpp"
+#include "base/counted.hpp"
 #include "base/durable_file.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
@@ -132,9 +133,8 @@ void StudyRun::refuse_to_abandon(const Plan& plan) const {
   if (!plan.other_physics.empty() && !request_.recompute) {
     throw Error(
         ErrorKind::study_invalid,
-        fmt::format(
-            "{} cases of {} were computed under another physics_version than this bedload's {} and cannot go on",
-            plan.other_physics.size(), directory_.string(), physics_version),
+        fmt::format("{} of {} computed under another physics_version than this bedload's {} cannot go on",
+                    counted(plan.other_physics.size(), "case"), directory_.string(), physics_version),
         "--recompute starts them anew (the old results stay in the database, marked); or use the bedload that computed "
         "them");
   }
@@ -273,7 +273,7 @@ int StudyRun::run() {
   enrol(ledger, plan);
   make_directories(plan);
   if (!request_.prepare) return schedule(ledger);
-  log_note(fmt::format("{} case{} prepared in {}; nothing was started", cases_.size(), cases_.size() == 1 ? "" : "s",
+  log_note(fmt::format("{} prepared in {}; nothing was started", counted(cases_.size(), "case"),
                        (directory_ / "cases").string()));
   return 0;
 }

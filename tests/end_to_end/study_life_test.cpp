@@ -181,8 +181,18 @@ TEST_F(StudyLife, StartsFromTheTemplateOfNew) {
   const auto plan = bedload(here(), {"plan", "shields.toml"});
   EXPECT_EQ(plan.code, 0) << plan.err;
   EXPECT_NE(plan.out.find("4 cases (4 new"), std::string::npos) << plan.out;
+  EXPECT_NE(plan.out.find("a ramp ends two holds after onset"), std::string::npos) << plan.out;
   EXPECT_FALSE(fs::exists(here() / "shields"));
   EXPECT_EQ(bedload(here(), {"new", "shields"}).code, 2);
+}
+
+TEST_F(StudyLife, CountsOneAsOne) {
+  const auto one = run(small_study, {"--prepare"});
+  EXPECT_NE(one.err.find("1 case prepared in "), std::string::npos) << one.err;
+  EXPECT_NE(bedload(here(), {"plan", "tiny.toml"})
+                .out.find("tiny: 1 case (0 new, 1 kept, 0 extended; 0 done), 0 dropped, "
+                          "1 bed; "),
+            std::string::npos);
 }
 
 TEST_F(StudyLife, ExplainsACase) {
@@ -217,7 +227,7 @@ TEST_F(StudyLife, PlansModelsAndNumbersOfEveryCaseInOrderOfTheStudy) {
   EXPECT_NE(group.find("warning: rho9000-s1 and 2 more: a bed "), group.npos) << group;
 }
 
-// In water the flow over these grains is turbulent; the bed is three grains deep.
+// A shallow bed, and terms left out that the rules want.
 TEST_F(StudyLife, SaysBeforeItRunsWhereItsScenesAreOutOfRangeAndKeepsThat) {
   const auto axis = with(small_study, "[\"3000 kg/m3\"]", "[\"3000 kg/m3\", \"2900 kg/m3\"]");
   const auto study = with(axis, "[drive]", "[models]\nterms = [\"drag\", \"buoyancy\"]\n[drive]");
