@@ -81,7 +81,6 @@ std::string command_line(const ValidateOptions& options) {
 
 void write_document(const ValidateOptions& options, const std::vector<RungResult>& rungs) {
   const fs::path folder = *options.write;
-  make_writable_directory(folder / "verification");
   for (const auto& file : verification_document(rungs, command_line(options))) publish(folder / file.path, file.text);
   log_note(fmt::format("wrote {}", (folder / "verification.md").string()));
 }
@@ -99,6 +98,7 @@ void print_summary(const std::vector<RungResult>& rungs, double wall) {
 
 /// The matrix of the extremes: scenes that must end well, or be refused, with their books in order.
 int validate_extremes(const ValidateOptions& options) {
+  if (options.write) make_writable_directory(*options.write);
   const auto rows = run_extremes({.quick = options.quick,
                                   .cores = options.cores.value_or(0),
                                   .progress = [](const std::string& line) { log_note(line); }});
@@ -127,6 +127,7 @@ int validate_command(const ValidateOptions& options) {
   if (wants_extremes(options)) return validate_extremes(options);
   const auto groups = groups_named(options.groups);
   if (options.list) return list_rungs(groups, options);
+  if (options.write) make_writable_directory(fs::path(*options.write) / "verification");
   const auto began = std::chrono::steady_clock::now();
   const auto rungs = climb(groups, {.quick = options.quick,
                                     .cores = options.cores.value_or(0),

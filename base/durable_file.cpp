@@ -156,7 +156,11 @@ void make_writable_directory(const fs::path& directory) {
   std::error_code problem;
   fs::create_directories(directory, problem);
   if (problem) throw_io("create", directory, problem.value());
-  if (::access(directory.c_str(), W_OK | X_OK) != 0) throw_io("write to", directory, errno);
+  // A file, not access(2): that knows permissions alone, and of root none.
+  auto trial = (directory / fmt::format("writable-XXXXXX{}", temporary_ending)).string();
+  const Descriptor file(::mkstemps(trial.data(), static_cast<int>(temporary_ending.size())));
+  if (file.get() < 0) throw_io("write to", directory, errno);
+  ::unlink(trial.c_str());
 }
 
 }   // namespace bedload

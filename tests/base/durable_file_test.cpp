@@ -131,6 +131,8 @@ TEST_F(DurableFile, NeedsADirectoryItCanWriteTo) {
   EXPECT_TRUE(fs::is_directory(directory / "x" / "y"));
   publish(directory / "file", "");
   EXPECT_THROW(make_writable_directory(directory / "file" / "z"), Error);
+  EXPECT_THROW(make_writable_directory("/proc"), Error) << "permissions are not all: nobody can make a file there";
+  EXPECT_TRUE(fs::is_empty(directory / "x" / "y"));
 }
 
 // ---- seal ----

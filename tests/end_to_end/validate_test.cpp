@@ -38,5 +38,20 @@ TEST(ValidateCommand, ListsItsStudiesWithoutRunningThem) {
   EXPECT_NE(outcome.out.find("onset-pocket-triangular"), std::string::npos) << outcome.out;
 }
 
+TEST(ValidateCommand, RefusesAFolderItCannotWriteToBeforeItRunsAnything) {
+  const TemporaryDirectory directory;
+  std::ofstream(directory.path() / "file");
+  const std::vector<std::vector<std::string>> ladder_and_extremes{{}, {"extremes"}};
+  for (const auto& group : ladder_and_extremes)
+    for (const char* folder : {"/proc/nope", "/proc", "file/in"}) {
+      std::vector<std::string> arguments{"validate", "--quick", "--cores", "2", "--write", folder};
+      arguments.insert(arguments.begin() + 1, group.begin(), group.end());
+      const auto outcome = bedload(directory.path(), arguments);
+      EXPECT_EQ(outcome.code, 74) << outcome.err;
+      EXPECT_TRUE(outcome.out.empty());
+      EXPECT_TRUE(outcome.err.starts_with("error: ")) << "something was run: " << outcome.err;
+    }
+}
+
 }   // namespace
 }   // namespace bedload
