@@ -160,7 +160,8 @@ void CommandLine::validate_commands() {
   validate->add_flag("--list", validate_.list, "which studies there are; run nothing");
   validate->add_option("--cores", validate_.cores, "cases side by side (default: all cores)")->check(check_workers);
   validate->add_option("--write", validate_.write,
-                       "write verification.md and its figures (extremes: extremes.md) into this folder");
+                       "write verification.md and its figures (extremes: extremes.md) into this folder; not with "
+                       "other groups. Links to study files hold in docs/ of the sources");
   forms(validate);
 }
 

@@ -72,17 +72,39 @@ void print_json(const std::vector<RungResult>& rungs, bool passed) {
   fmt::print("{}\n", json.dump(2));
 }
 
+/// A word as a shell reads it.
+std::string quoted(const std::string& word) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,:@%";
+  if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
 /// What was run, as it stands in the document.
 std::string command_line(const ValidateOptions& options) {
   std::string line = "bedload validate";
   for (const auto& group : options.groups) line += " " + group;
-  return line + (options.quick ? " --quick" : "") + " --write docs";
+  if (options.quick) line += " --quick";
+  if (options.cores) line += fmt::format(" --cores {}", *options.cores);
+  return line + " --write " + quoted(*options.write);
 }
 
 void write_document(const ValidateOptions& options, const std::vector<RungResult>& rungs) {
   const fs::path folder = *options.write;
   for (const auto& file : verification_document(rungs, command_line(options))) publish(folder / file.path, file.text);
   log_note(fmt::format("wrote {}", (folder / "verification.md").string()));
+}
+
+/// The document is of the whole ladder: a group's rows do not take its place.
+void make_room_for_document(const ValidateOptions& options) {
+  if (!options.groups.empty())
+    throw Error(ErrorKind::usage,
+                fmt::format("verification.md holds all groups: --write with {} would leave the others out",
+                            fmt::join(options.groups, ", ")),
+                fmt::format("bedload validate{} --write {} runs them all; --json or --csv keep the rows of a group",
+                            options.quick ? " --quick" : "", quoted(*options.write)));
+  make_writable_directory(fs::path(*options.write) / "verification");
 }
 
 void print_summary(const std::vector<RungResult>& rungs, double wall) {
@@ -127,7 +149,7 @@ int validate_command(const ValidateOptions& options) {
   if (wants_extremes(options)) return validate_extremes(options);
   const auto groups = groups_named(options.groups);
   if (options.list) return list_rungs(groups, options);
-  if (options.write) make_writable_directory(fs::path(*options.write) / "verification");
+  if (options.write) make_room_for_document(options);
   const auto began = std::chrono::steady_clock::now();
   const auto rungs = climb(groups, {.quick = options.quick,
                                     .cores = options.cores.value_or(0),

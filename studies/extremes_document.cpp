@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::string_view preface = R"(# Extremes
 
-Written by `{}`, bedload {} ({}). Do not edit: run the command.
+Written by `{}`, bedload {} ({}). Do not edit: run the command. Links to study files hold
+in docs/ of the sources.
 
 Scenes at the edges of what can be asked for: one factor at a time around two beds, special arrangements of grains, and a set
 in which every pair of levels of seven factors occurs. Each is a study file of [studies/validation](../studies/validation) and

@@ -63,7 +63,8 @@ std::string section_of(const RungResult& rung) {
 
 constexpr std::string_view preface = R"(# Verification
 
-Written by `{}`, bedload {} ({}). Do not edit: run the command.
+Written by `{}`, bedload {} ({}). Do not edit: run the command. Links to study files hold
+in docs/ of the sources.
 
 Every row is a run of this program, read from its record or its last state, and held against a reference of another origin:
 *code*, the exact answer of the equations that are solved; or *experiment*, what was measured in nature. A *note* is for

@@ -53,5 +53,13 @@ TEST(ValidateCommand, RefusesAFolderItCannotWriteToBeforeItRunsAnything) {
     }
 }
 
+TEST(ValidateCommand, DoesNotReplaceTheDocumentByTheRowsOfOneGroup) {
+  const TemporaryDirectory directory;
+  const auto outcome = bedload(directory.path(), {"validate", "onset", "--quick", "--write", "docs"});
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("hint: "), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "docs"));
+}
+
 }   // namespace
 }   // namespace bedload
