@@ -19,14 +19,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-int list_rungs(const std::vector<ValidationGroup>& groups, const ValidateOptions& options) {
+/// Studies of the ladder, then scenes of the extremes: one line each.
+int list_studies(const std::vector<ValidationGroup>& groups, bool extremes, Form form) {
   Rows rows{{"group", "study", "cases", "quick", "what"}, {}};
   for (const auto& group : groups)
     for (const auto& rung : group.rungs())
       rows.rows.push_back(
           {std::string(group.name), std::string(rung.study), static_cast<std::int64_t>(cases_of(rung, false).size()),
            static_cast<std::int64_t>(rung.quick ? cases_of(rung, true).size() : 0), std::string(rung.what)});
-  fmt::print("{}", printed(rows, options.form));
+  if (extremes)
+    for (const auto& scene : extreme_scenes(false))
+      rows.rows.push_back(
+          {std::string("extremes"), scene.base, std::int64_t{1}, std::int64_t{scene.quick}, scene.name});
+  fmt::print("{}", form == Form::table ? printed_with_text(rows) : printed(rows, form));
   return 0;
 }
 
@@ -135,20 +140,17 @@ int validate_extremes(const ValidateOptions& options) {
   return wrong == 0 ? 0 : static_cast<int>(ErrorKind::some_failed);
 }
 
-/// True if the extremes are asked for: alone, since they are no rows of the ladder.
-bool wants_extremes(const ValidateOptions& options) {
-  if (std::ranges::find(options.groups, "extremes") == options.groups.end()) return false;
-  if (options.groups.size() == 1 && !options.list) return true;
-  throw Error(ErrorKind::usage, "the extremes are run by themselves, and not listed",
-              "bedload validate extremes [--quick] [--json] [--write docs]");
-}
-
 }   // namespace
 
 int validate_command(const ValidateOptions& options) {
-  if (wants_extremes(options)) return validate_extremes(options);
-  const auto groups = groups_named(options.groups);
-  if (options.list) return list_rungs(groups, options);
+  auto names = options.groups;
+  const bool extremes = std::erase(names, "extremes") > 0;
+  const auto groups = extremes && names.empty() ? std::vector<ValidationGroup>{} : groups_named(names);
+  if (options.list) return list_studies(groups, extremes || names.empty(), options.form);
+  if (extremes && !groups.empty())
+    throw Error(ErrorKind::usage, "the extremes are run by themselves: they are no rows of the ladder",
+                "bedload validate extremes [--quick] [--json] [--write docs]");
+  if (extremes) return validate_extremes(options);
   if (options.write) make_room_for_document(options);
   const auto began = std::chrono::steady_clock::now();
   const auto rungs = climb(groups, {.quick = options.quick,

@@ -23,6 +23,17 @@ constexpr ValidationGroup groups[] = {
     {"onset", "what it takes to move a grain out of its place", onset_rungs},
 };
 
+/// If a group's name is that of one of its studies, says so.
+void refuse_study(const std::string& name) {
+  for (const auto& group : groups)
+    for (const auto& rung : group.rungs())
+      if (rung.study == name)
+        throw Error(ErrorKind::usage, fmt::format("{} is a study of the group {}, not a group", name, group.name),
+                    fmt::format("bedload validate {} judges it with its group; bedload run studies/validation/{}.toml "
+                                "runs it by itself",
+                                group.name, name));
+}
+
 }   // namespace
 
 double ValidationRow::deviation() const {
@@ -55,6 +66,7 @@ std::vector<ValidationGroup> groups_named(const std::vector<std::string>& names)
     if (std::ranges::find(names, group.name) != names.end()) named.push_back(group);
   for (const auto& name : names) {
     if (std::ranges::find(groups, name, &ValidationGroup::name) != std::end(groups)) continue;
+    refuse_study(name);
     std::string all, choices = "extremes";
     for (const auto& group : groups)
       all += fmt::format("{}{}", all.empty() ? "" : ", ", group.name), choices += fmt::format("|{}", group.name);

@@ -38,6 +38,26 @@ TEST(ValidateCommand, ListsItsStudiesWithoutRunningThem) {
   EXPECT_NE(outcome.out.find("onset-pocket-triangular"), std::string::npos) << outcome.out;
 }
 
+TEST(ValidateCommand, ListsTheScenesOfTheExtremesToo) {
+  const TemporaryDirectory directory;
+  const auto all = bedload(directory.path(), {"validate", "--list"});
+  EXPECT_EQ(all.code, 0);
+  const auto extremes = bedload(directory.path(), {"validate", "extremes", "--list"});
+  EXPECT_EQ(extremes.code, 0) << extremes.err;
+  for (const auto* out : {&all.out, &extremes.out})
+    EXPECT_NE(out->find("bed of solid fraction 0.64 that touches the lid"), std::string::npos) << *out;
+  EXPECT_NE(all.out.find("onset-pocket-triangular"), std::string::npos);
+  EXPECT_EQ(extremes.out.find("onset-pocket-triangular"), std::string::npos);
+}
+
+TEST(ValidateCommand, SaysHowAStudyOfAGroupIsRun) {
+  const TemporaryDirectory directory;
+  const auto outcome = bedload(directory.path(), {"validate", "contact-hertz"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("contact-hertz is a study of the group contact"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("bedload run studies/validation/contact-hertz.toml"), std::string::npos) << outcome.err;
+}
+
 TEST(ValidateCommand, RefusesAFolderItCannotWriteToBeforeItRunsAnything) {
   const TemporaryDirectory directory;
   std::ofstream(directory.path() / "file");
