@@ -10,6 +10,7 @@
 #include "base/durable_file.hpp"
 #include "base/log.hpp"
 #include "studies/extremes_document.hpp"
+#include "studies/stop_signals.hpp"
 #include "studies/validation.hpp"
 #include "studies/verification_document.hpp"
 
@@ -123,13 +124,30 @@ void print_summary(const std::vector<RungResult>& rungs, double wall) {
   log_note(fmt::format("{} of {} rows in band; {:.0f} s, {:.0f} core seconds", good, rows, wall, core_seconds));
 }
 
+/// What workers ask before every step. They end with their steps under way; a second signal ends the program.
+bool stop_asked() {
+  if (!StopSignals::arrived()) return false;
+  StopSignals::release();
+  return true;
+}
+
+/// The rows so far are printed; a document is written of a whole ladder only.
+int stopped_after(std::size_t done, std::size_t all, std::string_view what) {
+  log_note(fmt::format("stopped after {} of {} {}", done, all, what));
+  return static_cast<int>(ErrorKind::stopped);
+}
+
 /// The matrix of the extremes: scenes that must end well, or be refused, with their books in order.
 int validate_extremes(const ValidateOptions& options) {
   if (options.write) make_writable_directory(*options.write);
+  const StopSignals signals;
   const auto rows = run_extremes({.quick = options.quick,
                                   .cores = options.cores.value_or(0),
-                                  .progress = [](const std::string& line) { log_note(line); }});
+                                  .progress = [](const std::string& line) { log_note(line); },
+                                  .stop = stop_asked});
   fmt::print("{}", printed(extremes_table(rows), options.form));
+  if (const auto all = extreme_scenes(options.quick).size(); rows.size() < all)
+    return stopped_after(rows.size(), all, "scenes");
   if (options.write) {
     const auto file = extremes_document(rows, command_line(options));
     publish(fs::path(*options.write) / file.path, file.text);
@@ -153,12 +171,17 @@ int validate_command(const ValidateOptions& options) {
   if (extremes) return validate_extremes(options);
   if (options.write) make_room_for_document(options);
   const auto began = std::chrono::steady_clock::now();
-  const auto rungs = climb(groups, {.quick = options.quick,
-                                    .cores = options.cores.value_or(0),
-                                    .progress = [](const std::string& line) { log_note(line); }});
-  const bool passed = std::ranges::all_of(rungs, &RungResult::passed);
+  const StopSignals signals;
+  auto rungs = climb(groups, {.quick = options.quick,
+                              .cores = options.cores.value_or(0),
+                              .progress = [](const std::string& line) { log_note(line); },
+                              .stop = stop_asked});
+  const auto all = rungs.size();
+  std::erase_if(rungs, &RungResult::stopped);
+  const bool passed = rungs.size() == all && std::ranges::all_of(rungs, &RungResult::passed);
   if (options.form == Form::json) print_json(rungs, passed);
   else fmt::print("{}", printed(as_rows(rungs), options.form));
+  if (rungs.size() < all) return stopped_after(rungs.size(), all, "studies");
   if (options.write) write_document(options, rungs);
   print_summary(rungs, std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   return passed ? 0 : static_cast<int>(ErrorKind::some_failed);

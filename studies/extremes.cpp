@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -70,18 +71,25 @@ bool all_finite(const State& state) {
                                                 state.clock.step, state.clock.time, why, health.dt, health.retries));
 }
 
+using Stop = std::function<bool()>;
+
+void stop_if_asked(const Stop& stop) {
+  if (stop()) throw Error(ErrorKind::stopped, "stopped");
+}
+
 /// One step, which must be a good one.
-StepHealth advance(Experiment& experiment, State& state) {
+StepHealth advance(Experiment& experiment, State& state, const Stop& stop) {
+  stop_if_asked(stop);
   const StepHealth health = experiment.step(state);
   if (const auto cause = ailment(health); !cause.empty()) fail(state, health, cause);
   return health;
 }
 
 /// The scene with its bed settled.
-State settled(Experiment& experiment) {
+State settled(Experiment& experiment, const Stop& stop) {
   State state = experiment.begin();
   for (double packed = 0; state.search.phase == Search::packing; ++packed) {
-    const StepHealth health = advance(experiment, state);
+    const StepHealth health = advance(experiment, state, stop);
     if (packed > longest_packing) fail(state, health, "the bed does not come to rest");
   }
   return state;
@@ -89,27 +97,27 @@ State settled(Experiment& experiment) {
 
 /// Lines that give the run its length: the time that its steps take when nothing ends it, since what limits a step (flow,
 /// drag, contacts) shows only in the run.
-std::string length_of(const ExtremeScene& scene) {
+std::string length_of(const ExtremeScene& scene, const Stop& stop) {
   const Case endless = case_of(scene, "drive.dwell = \"1e9 s\"");
   Experiment experiment(endless.scene);
-  State state = settled(experiment);
-  for (int n = 0; n < scene.steps; ++n) advance(experiment, state);
+  State state = settled(experiment, stop);
+  for (int n = 0; n < scene.steps; ++n) advance(experiment, state, stop);
   const double dwell =
       state.clock.time / static_cast<double>(std::max<std::size_t>(1, endless.scene.drive.levels.size()));
   return fmt::format("drive.dwell = \"{} s\"\nrecord.every = \"{} s\"", dwell, dwell / 4);
 }
 
 /// Runs to the end. Returns a checkpoint of the middle of the ramp.
-std::vector<std::byte> run_straight(const Scene& scene, State& state, ExtremeRow& row) {
+std::vector<std::byte> run_straight(const Scene& scene, State& state, ExtremeRow& row, const Stop& stop) {
   Experiment experiment(scene);
   ConservationBooks books(scene);
-  state = settled(experiment);
+  state = settled(experiment, stop);
   row.grains = state.grains.size();
   const double half = experiment.planned_time() / 2;
   std::vector<std::byte> middle;
   while (!Experiment::finished(state)) {
     const State before = state;
-    const StepHealth health = advance(experiment, state);
+    const StepHealth health = advance(experiment, state, stop);
     books.add(before, state, health, experiment.coupler().books());
     row.books = books.worst();
     row.cfl = std::max({row.cfl, health.cfl, health.cfl_after});
@@ -122,28 +130,30 @@ std::vector<std::byte> run_straight(const Scene& scene, State& state, ExtremeRow
 }
 
 /// Runs to the end from a checkpoint.
-State resumed(const Scene& scene, const std::vector<std::byte>& image, const std::string& name) {
+State resumed(const Scene& scene, const std::vector<std::byte>& image, const std::string& name, const Stop& stop) {
   Experiment experiment(scene);
   State state = state_from_image(image, name);
-  while (!Experiment::finished(state)) advance(experiment, state);
+  while (!Experiment::finished(state)) advance(experiment, state, stop);
   return state;
 }
 
 }   // namespace
 
-ExtremeRow run_extreme(const ExtremeScene& scene) {
+ExtremeRow run_extreme(const ExtremeScene& scene, const Stop& stop) {
   ExtremeRow row{.scene = scene};
   const double began = thread_seconds();
   State state;
   try {
-    const std::string length = length_of(scene);
+    stop_if_asked(stop);   // also where it would be refused
+    const std::string length = length_of(scene, stop);
     row.scene.overrides += (scene.overrides.empty() ? "" : "\n") + length;
     const Case one = case_of(scene, length);
-    const auto middle = run_straight(one.scene, state, row);
+    const auto middle = run_straight(one.scene, state, row, stop);
     row.outcome = Outcome::finished;
     row.resumed_is_straight =
-        !middle.empty() && state_digest(resumed(one.scene, middle, scene.name)) == state_digest(state);
+        !middle.empty() && state_digest(resumed(one.scene, middle, scene.name, stop)) == state_digest(state);
   } catch (const Error& error) {
+    if (error.kind == ErrorKind::stopped) throw;
     row.outcome = error.kind == ErrorKind::numerical ? Outcome::failed : Outcome::refused;
     row.message = error.what();
   }
@@ -176,15 +186,22 @@ std::string ExtremeRow::wrong() const {
 
 std::vector<ExtremeRow> run_extremes(const ExtremesOptions& options) {
   const auto scenes = extreme_scenes(options.quick);
-  std::vector<ExtremeRow> rows(scenes.size());
+  std::vector<std::optional<ExtremeRow>> ended(scenes.size());
   std::mutex speaking;
   run_in_parallel(scenes.size(), options.cores, [&](std::size_t n) {
-    rows[n] = run_extreme(scenes[n]);
-    const auto wrong = rows[n].wrong();
+    try {
+      ended[n] = run_extreme(scenes[n], options.stop);
+    } catch (const Error&) {
+      return;   // stopped
+    }
+    const auto wrong = ended[n]->wrong();
     const std::lock_guard lock(speaking);
     options.progress(fmt::format("{}: {}: {} ({:.1f} s)", scenes[n].base, scenes[n].name,
-                                 wrong.empty() ? "right" : "WRONG: " + wrong, rows[n].core_seconds));
+                                 wrong.empty() ? "right" : "WRONG: " + wrong, ended[n]->core_seconds));
   });
+  std::vector<ExtremeRow> rows;
+  for (auto& row : ended)
+    if (row) rows.push_back(std::move(*row));
   return rows;
 }
 

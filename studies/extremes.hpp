@@ -58,11 +58,14 @@ struct ExtremesOptions {
   bool quick = false;
   int cores = 0;   // worker threads; 0 = all. No value depends on it.
   std::function<void(const std::string&)> progress = [](const std::string&) {};   // one line per scene done
+  std::function<bool()> stop = [] { return false; };   // asked before every step, by all workers
 };
 
-/// Runs the matrix in memory; nothing is written. Rows in the order of extreme_scenes().
+/// Runs the matrix in memory; nothing is written. Rows in the order of extreme_scenes(), without those that were stopped.
 std::vector<ExtremeRow> run_extremes(const ExtremesOptions&);
-ExtremeRow run_extreme(const ExtremeScene&);
+/// Throws Error stopped if asked to stop.
+ExtremeRow run_extreme(
+    const ExtremeScene&, const std::function<bool()>& stop = [] { return false; });
 
 /// The matrix as a table: scene, base, overrides, outcome, books, retries, verdict, message.
 Rows extremes_table(const std::vector<ExtremeRow>&);

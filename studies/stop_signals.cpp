@@ -20,7 +20,9 @@ StopSignals::StopSignals() {
   for (const int signal : signals) sigaction(signal, &action, nullptr);
 }
 
-StopSignals::~StopSignals() {
+StopSignals::~StopSignals() { release(); }
+
+void StopSignals::release() {
   for (const int signal : signals) std::signal(signal, SIG_DFL);
 }
 

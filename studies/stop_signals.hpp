@@ -1,4 +1,4 @@
-// Signals that ask a worker to write a checkpoint and stop.
+// Signals that ask to stop in good order: a worker with a checkpoint, the ladder with the rows it has.
 #pragma once
 
 namespace bedload {
@@ -12,6 +12,8 @@ class StopSignals {
   StopSignals& operator=(const StopSignals&) = delete;
 
   static bool arrived();
+  /// From now on a signal ends the process again: for who has seen the first and is stopping.
+  static void release();
 };
 
 }   // namespace bedload

@@ -54,7 +54,7 @@ std::size_t Findings::in_band() const {
 }
 
 bool RungResult::passed() const {
-  return failure.empty() && findings.deciding() > 0 && findings.in_band() == findings.deciding();
+  return failure.empty() && !stopped && findings.deciding() > 0 && findings.in_band() == findings.deciding();
 }
 
 std::span<const ValidationGroup> validation_groups() { return groups; }

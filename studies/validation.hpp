@@ -119,6 +119,7 @@ struct RungResult {
   std::string group, study, what;
   Findings findings;         // empty if a case failed
   std::string failure;       // why a case, or the study file, could not be run; empty if all were
+  bool stopped = false;      // before all its cases were run: no findings
   int cases = 0;             // that were run
   double core_seconds = 0;   // of all cases, packing too
   bool passed() const;
@@ -128,13 +129,14 @@ struct ValidationOptions {
   bool quick = false;
   int cores = 0;   // worker threads; 0 = all. No value depends on it.
   std::function<void(const std::string&)> progress = [](const std::string&) {};   // one line per finished rung
+  std::function<bool()> stop = [] { return false; };   // asked before every step, by all workers
 };
 
 /// Runs all rungs of the groups, cases side by side, costly ones first; nothing is written. Results in the order of the ladder.
 std::vector<RungResult> climb(const std::vector<ValidationGroup>&, const ValidationOptions&);
 
-/// Runs one case to its end in memory. Throws Error numerical if it leaves its domain.
-FinishedCase run_in_memory(const Case&);
+/// Runs one case to its end in memory. Throws Error numerical if it leaves its domain, Error stopped if asked to stop.
+FinishedCase run_in_memory(const Case&, const std::function<bool()>& stop);
 
 /// Trajectory of one grain of record.tracks; positions made continuous across periodic seams.
 struct Trajectory {

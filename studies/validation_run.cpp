@@ -26,6 +26,7 @@ struct Climb {
   std::vector<std::optional<FinishedCase>> finished;
   std::vector<std::string> failures;   // by case; empty = none
   std::atomic<std::size_t> left = 0;
+  std::atomic<bool> stopped = false;
 };
 
 struct Job {
@@ -82,12 +83,17 @@ std::string summary(const RungResult& r) {
 
 }   // namespace
 
-FinishedCase run_in_memory(const Case& one) {
+FinishedCase run_in_memory(const Case& one, const std::function<bool()>& stop) {
   FinishedCase run{.one = one, .state = {}, .drag = {}};
+  const auto go_on = [&] {
+    if (stop()) throw Error(ErrorKind::stopped, fmt::format("{}: stopped", one.label));
+  };
+  go_on();
   Experiment experiment(one.scene);
   double began = thread_seconds();
   run.state = experiment.begin();
   while (!Experiment::finished(run.state)) {
+    go_on();
     const bool packing = run.state.search.phase == Search::packing;
     const StepHealth health = experiment.step(run.state);
     if (const auto cause = ailment(health); !cause.empty())
@@ -122,11 +128,15 @@ std::vector<RungResult> climb(const std::vector<ValidationGroup>& groups, const 
   run_in_parallel(jobs.size(), options.cores, [&](std::size_t n) {
     Climb& climb = *jobs[n].climb;
     try {
-      climb.finished[jobs[n].index] = run_in_memory(climb.cases[jobs[n].index]);
+      climb.finished[jobs[n].index] = run_in_memory(climb.cases[jobs[n].index], options.stop);
+    } catch (const Error& error) {
+      if (error.kind == ErrorKind::stopped) climb.stopped = true;
+      else climb.failures[jobs[n].index] = error.what();
     } catch (const std::exception& error) {
       climb.failures[jobs[n].index] = error.what();
     }
     if (--climb.left > 0) return;
+    if ((climb.result.stopped = climb.stopped)) return;
     measure(climb);
     const std::lock_guard lock(speaking);
     options.progress(summary(climb.result));

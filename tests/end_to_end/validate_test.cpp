@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
 
 #include <nlohmann/json.hpp>
 
@@ -56,6 +57,29 @@ TEST(ValidateCommand, SaysHowAStudyOfAGroupIsRun) {
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("contact-hertz is a study of the group contact"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("bedload run studies/validation/contact-hertz.toml"), std::string::npos) << outcome.err;
+}
+
+/// Waits until it has reported a run on stderr, sends SIGINT.
+Outcome interrupted(const std::filesystem::path& directory, std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--cores", "2"});
+  Process process(directory, arguments);
+  for (int tenths = 0; tenths < 300 && contents(directory / ".err").find('\n') == std::string::npos; ++tenths)
+    ::usleep(100'000);
+  ::kill(process.pid(), SIGINT);
+  return process.wait();
+}
+
+TEST(ValidateCommand, PrintsTheRowsThatAreDoneWhenInterrupted) {
+  const TemporaryDirectory one, other;
+  const auto ladder = interrupted(one.path(), {"validate", "contact"});
+  EXPECT_EQ(ladder.code, 75) << ladder.err;
+  EXPECT_NE(ladder.out.find("contact-"), std::string::npos) << ladder.out;
+  EXPECT_TRUE(regex_search(ladder.err, std::regex("stopped after [1-9][0-9]* of [0-9]+ studies"))) << ladder.err;
+  const auto extremes = interrupted(other.path(), {"validate", "extremes", "--write", "docs"});
+  EXPECT_EQ(extremes.code, 75) << extremes.err;
+  EXPECT_NE(extremes.out.find("finished"), std::string::npos) << extremes.out;
+  EXPECT_TRUE(regex_search(extremes.err, std::regex("stopped after [1-9][0-9]* of [0-9]+ scenes"))) << extremes.err;
+  EXPECT_FALSE(std::filesystem::exists(other.path() / "docs/extremes.md")) << "of a part";
 }
 
 TEST(ValidateCommand, RefusesAFolderItCannotWriteToBeforeItRunsAnything) {
