@@ -57,8 +57,11 @@ std::string as_json(const Rows& rows) {
   return array.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// Heading and rows as text, each column but the last padded to one width.
-std::vector<std::vector<std::string>> aligned(const Rows& rows) {
+constexpr std::size_t any_width = std::string::npos;
+
+/// Heading and rows as text, each column but the last padded to one width; in the first what is wider than `widest` is
+/// followed by a new line, padded.
+std::vector<std::vector<std::string>> aligned(const Rows& rows, std::size_t widest = any_width) {
   std::vector<std::vector<std::string>> lines{rows.columns};
   for (const auto& row : rows.rows) {
     auto& line = lines.emplace_back();
@@ -66,15 +69,19 @@ std::vector<std::vector<std::string>> aligned(const Rows& rows) {
   }
   for (std::size_t c = 0; c + 1 < rows.columns.size(); ++c) {
     std::size_t width = 0;
-    for (const auto& line : lines) width = std::max(width, line[c].size());
-    for (auto& line : lines) line[c].resize(width, ' ');
+    const std::size_t most = c == 0 ? widest : any_width;
+    for (const auto& line : lines)
+      if (line[c].size() <= most) width = std::max(width, line[c].size());
+    for (auto& line : lines)
+      if (line[c].size() <= most) line[c].resize(width, ' ');
+      else line[c] += "\n" + std::string(width, ' ');
   }
   return lines;
 }
 
-std::string as_table(const Rows& rows) {
+std::string as_table(const Rows& rows, std::size_t widest = any_width) {
   std::string text;
-  for (const auto& line : aligned(rows)) {
+  for (const auto& line : aligned(rows, widest)) {
     const auto one = fmt::format("{}", fmt::join(line, "  "));
     text += one.substr(0, one.find_last_not_of(' ') + 1) + "\n";
   }
@@ -105,6 +112,8 @@ std::string printed_with_text(const Rows& rows) {
   }
   return text;
 }
+
+std::string printed_below_long_names(const Rows& rows, std::size_t widest) { return as_table(rows, widest); }
 
 std::string printed(const Rows& rows, Form form) {
   return form == Form::csv ? as_csv(rows) : form == Form::json ? as_json(rows) : as_table(rows);

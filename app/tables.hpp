@@ -18,4 +18,7 @@ std::string wrapped(const std::string& text, std::size_t indent);
 /// A table for people whose last column is text: that is wrapped.
 std::string printed_with_text(const Rows&);
 
+/// A table for people whose first column is a name: one longer than `widest` stands on a line of its own, above its row.
+std::string printed_below_long_names(const Rows&, std::size_t widest);
+
 }   // namespace bedload

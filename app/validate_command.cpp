@@ -3,10 +3,10 @@
 #include <chrono>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
 #include "app/tables.hpp"
+#include "app/validate_tables.hpp"
 #include "base/durable_file.hpp"
 #include "base/log.hpp"
 #include "studies/extremes_document.hpp"
@@ -36,46 +36,20 @@ int list_studies(const std::vector<ValidationGroup>& groups, bool extremes, Form
   return 0;
 }
 
-Rows as_rows(const std::vector<RungResult>& rungs) {
-  Rows rows{{"study", "row", "reference", "ours", "deviation", "band", "pass", "source"}, {}};
-  for (const auto& rung : rungs) {
-    for (const auto& row : rung.findings.rows)
-      rows.rows.push_back({rung.study, row.name, row.decides() ? Value(row.reference) : Value(), row.ours,
-                           shown_deviation(row), shown_band(row), std::string(shown_verdict(row)),
-                           row.decides() ? fmt::format("{}: {}", shown_against(row), row.source) : row.source});
-    if (!rung.failure.empty())
-      rows.rows.push_back({rung.study, std::string("all rows"), {}, {}, {}, {}, std::string("NOT RUN"), rung.failure});
-  }
-  return rows;
+/// The sum of it all: below the table that people read, else as a note, since programs read the rest.
+void conclude(const std::string& sum, Form form) {
+  if (form == Form::table) fmt::print("{}\n", sum);
+  else log_note(sum);
 }
 
-nlohmann::ordered_json as_json(const RungResult& rung) {
-  auto rows = nlohmann::ordered_json::array();
-  for (const auto& row : rung.findings.rows)
-    rows.push_back({{"row", row.name},
-                    {"reference", row.reference},
-                    {"source", row.source},
-                    {"against", shown_against(row)},
-                    {"ours", row.ours},
-                    {"deviation", row.deviation()},
-                    {"relative", row.band.relative},
-                    {"band_below", row.band.below},
-                    {"band_above", row.band.above},
-                    {"pass", row.decides() ? nlohmann::json(row.in_band()) : nlohmann::json()}});
-  return {{"group", rung.group},
-          {"study", rung.study},
-          {"what", rung.what},
-          {"cases", rung.cases},
-          {"core_seconds", rung.core_seconds},
-          {"failure", rung.failure},
-          {"pass", rung.passed()},
-          {"rows", std::move(rows)}};
+int exit_code(bool stopped, bool good) {
+  return stopped ? static_cast<int>(ErrorKind::stopped) : good ? 0 : static_cast<int>(ErrorKind::some_failed);
 }
 
-void print_json(const std::vector<RungResult>& rungs, bool passed) {
-  nlohmann::ordered_json json = {{"pass", passed}, {"rungs", nlohmann::ordered_json::array()}};
-  for (const auto& rung : rungs) json["rungs"].push_back(as_json(rung));
-  fmt::print("{}\n", json.dump(2));
+void print_ladder(const Climbed& ladder, Form form) {
+  if (form == Form::json) fmt::print("{}", ladder_as_json(ladder));
+  else fmt::print("{}", form == Form::csv ? ladder_as_csv(ladder.rungs) : ladder_for_people(ladder.rungs));
+  conclude(ladder_summary(ladder), form);
 }
 
 /// A word as a shell reads it.
@@ -113,28 +87,11 @@ void make_room_for_document(const ValidateOptions& options) {
   make_writable_directory(fs::path(*options.write) / "verification");
 }
 
-void print_summary(const std::vector<RungResult>& rungs, double wall) {
-  std::size_t rows = 0, good = 0;
-  double core_seconds = 0;
-  for (const auto& rung : rungs) {
-    rows += rung.findings.deciding(), good += rung.findings.in_band();
-    core_seconds += rung.core_seconds;
-    if (!rung.failure.empty()) log_warning(fmt::format("{} was not run to its end: {}", rung.study, rung.failure));
-  }
-  log_note(fmt::format("{} of {} rows in band; {:.0f} s, {:.0f} core seconds", good, rows, wall, core_seconds));
-}
-
 /// What workers ask before every step. They end with their steps under way; a second signal ends the program.
 bool stop_asked() {
   if (!StopSignals::arrived()) return false;
   StopSignals::release();
   return true;
-}
-
-/// The rows so far are printed; a document is written of a whole ladder only.
-int stopped_after(std::size_t done, std::size_t all, std::string_view what) {
-  log_note(fmt::format("stopped after {} of {} {}", done, all, what));
-  return static_cast<int>(ErrorKind::stopped);
 }
 
 /// The matrix of the extremes: scenes that must end well, or be refused, with their books in order.
@@ -145,17 +102,21 @@ int validate_extremes(const ValidateOptions& options) {
                                   .cores = options.cores.value_or(0),
                                   .progress = [](const std::string& line) { log_note(line); },
                                   .stop = stop_asked});
-  fmt::print("{}", printed(extremes_table(rows), options.form));
-  if (const auto all = extreme_scenes(options.quick).size(); rows.size() < all)
-    return stopped_after(rows.size(), all, "scenes");
-  if (options.write) {
+  const auto all = extreme_scenes(options.quick).size();
+  const bool stopped = rows.size() < all;
+  const auto wrong = std::ranges::count_if(rows, [](const ExtremeRow& row) { return !row.wrong().empty(); });
+  fmt::print("{}",
+             options.form == Form::table ? extremes_for_people(rows) : printed(extremes_table(rows), options.form));
+  conclude(fmt::format("{}{} of {} scenes as they must be",
+                       stopped ? fmt::format("stopped after {} of {} scenes; ", rows.size(), all) : "",
+                       std::ssize(rows) - wrong, rows.size()),
+           options.form);
+  if (options.write && !stopped) {
     const auto file = extremes_document(rows, command_line(options));
     publish(fs::path(*options.write) / file.path, file.text);
     log_note(fmt::format("wrote {}", (fs::path(*options.write) / file.path).string()));
   }
-  const auto wrong = std::ranges::count_if(rows, [](const ExtremeRow& row) { return !row.wrong().empty(); });
-  log_note(fmt::format("{} of {} scenes as they must be", std::ssize(rows) - wrong, rows.size()));
-  return wrong == 0 ? 0 : static_cast<int>(ErrorKind::some_failed);
+  return exit_code(stopped, wrong == 0);
 }
 
 }   // namespace
@@ -172,19 +133,17 @@ int validate_command(const ValidateOptions& options) {
   if (options.write) make_room_for_document(options);
   const auto began = std::chrono::steady_clock::now();
   const StopSignals signals;
-  auto rungs = climb(groups, {.quick = options.quick,
-                              .cores = options.cores.value_or(0),
-                              .progress = [](const std::string& line) { log_note(line); },
-                              .stop = stop_asked});
-  const auto all = rungs.size();
-  std::erase_if(rungs, &RungResult::stopped);
-  const bool passed = rungs.size() == all && std::ranges::all_of(rungs, &RungResult::passed);
-  if (options.form == Form::json) print_json(rungs, passed);
-  else fmt::print("{}", printed(as_rows(rungs), options.form));
-  if (rungs.size() < all) return stopped_after(rungs.size(), all, "studies");
-  if (options.write) write_document(options, rungs);
-  print_summary(rungs, std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
-  return passed ? 0 : static_cast<int>(ErrorKind::some_failed);
+  Climbed ladder{.rungs = climb(groups, {.quick = options.quick,
+                                         .cores = options.cores.value_or(0),
+                                         .progress = [](const std::string& line) { log_note(line); },
+                                         .stop = stop_asked}),
+                 .quick = options.quick};
+  ladder.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  ladder.studies = ladder.rungs.size();
+  std::erase_if(ladder.rungs, &RungResult::stopped);
+  print_ladder(ladder, options.form);
+  if (options.write && !ladder.stopped()) write_document(options, ladder.rungs);
+  return exit_code(ladder.stopped(), ladder.passed());
 }
 
 }   // namespace bedload

@@ -22,9 +22,6 @@
 namespace bedload {
 namespace {
 
-// What the books must hold to; docs/physics_coupling.md says what is exact and what is bounded.
-constexpr double exact_volume = 1e-10, exact_momentum = 1e-10, exact_divergence = 1e-8, energy_made = 0.01;
-constexpr double most_left = 0.1;            // of a cell's volume per step, with mobile grains
 constexpr double longest_packing = 60'000;   // intervals of packing
 
 /// The base file with the overrides in place of what it says.

@@ -19,6 +19,10 @@ namespace bedload {
 /// How large a scene of the matrix may be: in grains, and in fluid steps if it ends.
 inline constexpr std::uint64_t most_grains = 500, fewest_steps = 200, most_steps = 2000;
 
+/// What the books must hold to; docs/physics_coupling.md says what is exact and what is bounded.
+inline constexpr double exact_volume = 1e-10, exact_momentum = 1e-10, exact_divergence = 1e-8, energy_made = 0.01;
+inline constexpr double most_left = 0.1;   // of a cell's volume per step, with mobile grains
+
 /// What becomes of a scene.
 enum class Outcome { finished, refused, failed };
 std::string_view name_of(Outcome);

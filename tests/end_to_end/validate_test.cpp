@@ -18,11 +18,46 @@ TEST(ValidateCommand, ClimbsAGroupInMemoryAndEndsWell) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_TRUE(json.at("pass"));
+  EXPECT_TRUE(json.at("quick"));
+  for (const char* key : {"version", "commit", "date"}) EXPECT_FALSE(json.at(key).get<std::string>().empty()) << key;
   ASSERT_GE(json.at("rungs").size(), 10u);
   for (const auto& rung : json.at("rungs"))
-    for (const auto& row : rung.at("rows")) EXPECT_TRUE(row.at("pass")) << row.dump();
+    for (const auto& row : rung.at("rows"))
+      EXPECT_TRUE(row.at("pass") == true && !row.at("unit").empty()) << row.dump();
   for (const auto& left : std::filesystem::directory_iterator(directory.path()))
     EXPECT_EQ(left.path().filename().string()[0], '.') << "only this test's own .out and .err: " << left.path();
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(ValidateCommand, PrintsTablesThatFitAPageAndTheSumBelowThem) {
+  const TemporaryDirectory directory;
+  const auto outcome = bedload(directory.path(), {"validate", "contact", "--quick", "--cores", "2"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const auto& line : lines_of(outcome.out)) EXPECT_LE(line.size(), 120u) << line;
+  EXPECT_NE(outcome.out.find("contact-hertz: two equal elastic spheres meet head-on\n"), std::string::npos);
+  EXPECT_NE(outcome.out.find("[1] Hertz 1882\n"), std::string::npos);
+  EXPECT_TRUE(regex_search(outcome.out, std::regex("([0-9]+) of \\1 rows in band; [^\n]*core seconds\n$")));
+}
+
+TEST(ValidateCommand, PrintsCsvInNumbersWithGroupAndUnit) {
+  const TemporaryDirectory directory;
+  const auto outcome = bedload(directory.path(), {"validate", "contact", "--quick", "--cores", "2", "--csv"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const auto lines = lines_of(outcome.out);
+  ASSERT_GT(lines.size(), 10u);
+  EXPECT_EQ(lines[0],
+            "group,study,row,unit,reference,source,against,ours,deviation,relative,band_below,band_above,pass");
+  const std::regex row(
+      "contact,contact-[a-z-]+,(\"[^\"]*\"|[^,\"]*),[a-z0-9/-]+,[-+.e0-9]+,(\"[^\"]*\"|[^,\"]*),"
+      "(code|experiment),[-+.e0-9]+,[-+.e0-9]+,(true|false),[-+.e0-9]*,[-+.e0-9]*,true");
+  for (std::size_t n = 1; n < lines.size(); ++n)
+    EXPECT_TRUE(lines[n].ends_with(",") || std::regex_match(lines[n], row)) << lines[n];   // notes end with a comma
 }
 
 TEST(ValidateCommand, RefusesAnUnknownGroupWithTheList) {
@@ -74,11 +109,11 @@ TEST(ValidateCommand, PrintsTheRowsThatAreDoneWhenInterrupted) {
   const auto ladder = interrupted(one.path(), {"validate", "contact"});
   EXPECT_EQ(ladder.code, 75) << ladder.err;
   EXPECT_NE(ladder.out.find("contact-"), std::string::npos) << ladder.out;
-  EXPECT_TRUE(regex_search(ladder.err, std::regex("stopped after [1-9][0-9]* of [0-9]+ studies"))) << ladder.err;
+  EXPECT_TRUE(regex_search(ladder.out, std::regex("stopped after [1-9][0-9]* of [0-9]+ studies"))) << ladder.out;
   const auto extremes = interrupted(other.path(), {"validate", "extremes", "--write", "docs"});
   EXPECT_EQ(extremes.code, 75) << extremes.err;
   EXPECT_NE(extremes.out.find("finished"), std::string::npos) << extremes.out;
-  EXPECT_TRUE(regex_search(extremes.err, std::regex("stopped after [1-9][0-9]* of [0-9]+ scenes"))) << extremes.err;
+  EXPECT_TRUE(regex_search(extremes.out, std::regex("stopped after [1-9][0-9]* of [0-9]+ scenes"))) << extremes.out;
   EXPECT_FALSE(std::filesystem::exists(other.path() / "docs/extremes.md")) << "of a part";
 }
 
