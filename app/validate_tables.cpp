@@ -11,6 +11,7 @@
 #include "app/tables.hpp"
 #include "base/build_info.hpp"
 #include "studies/extremes_document.hpp"
+#include "studies/mesh_table.hpp"
 #include "studies/verification_document.hpp"
 
 namespace bedload {
@@ -91,6 +92,15 @@ std::string study_for_people(const RungResult& rung) {
   return text;
 }
 
+std::string meshes_for_people(const std::vector<MeshFall>& falls) {
+  Rows table{mesh_columns(), {}};
+  for (const auto& fall : falls) {
+    const auto cells = mesh_cells(fall);
+    table.rows.emplace_back(cells.begin(), cells.end());
+  }
+  return wrapped(mesh_caption, 0) + "\n" + printed(table, Form::table);
+}
+
 std::string scenes_for_people(const std::vector<ExtremeRow>& rows, const std::string& base) {
   Rows table{extremes_columns(), {}};
   const auto add = [&](const std::vector<std::string>& cells) { table.rows.emplace_back(cells.begin(), cells.end()); };
@@ -106,7 +116,12 @@ bool Climbed::passed() const { return !stopped() && std::ranges::all_of(rungs, &
 
 std::string ladder_for_people(const std::vector<RungResult>& rungs) {
   std::string text;
-  for (const auto& rung : rungs) text += study_for_people(rung) + "\n";
+  const auto falls = mesh_falls(rungs);
+  for (std::size_t n = 0; n < rungs.size(); ++n) {
+    text += study_for_people(rungs[n]) + "\n";
+    const bool last = n + 1 == rungs.size() || rungs[n + 1].group != rungs[n].group;
+    if (last && rungs[n].group == mesh_group && !falls.empty()) text += meshes_for_people(falls) + "\n";
+  }
   return text;
 }
 

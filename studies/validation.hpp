@@ -60,9 +60,19 @@ struct ValidationFigure {
   std::string svg;       // see svg_plot.hpp
 };
 
+/// A sphere's fall on one mesh, for the table of meshes (mesh_table.hpp).
+struct MeshFall {
+  double cell = 0;                              // edge [d]
+  bool corrected = false;                       // freed of the flow that it makes itself
+  double against_law = 0, against_stokes = 0;   // mean speed over the terminal one, less one
+  double ripple = 0;                            // over a cell, of the mean speed
+  double seconds_of_500_steps = 0;              // CPU time of one core
+};
+
 struct Findings {
   std::vector<ValidationRow> rows;
   std::vector<ValidationFigure> figures;
+  std::vector<MeshFall> falls = {};
 
   std::size_t deciding() const;   // rows that are no notes
   std::size_t in_band() const;    // of these

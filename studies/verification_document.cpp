@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/build_info.hpp"
+#include "studies/mesh_table.hpp"
 
 namespace bedload {
 
@@ -61,6 +62,15 @@ std::string section_of(const RungResult& rung) {
   return text;
 }
 
+std::string section_of(const std::vector<MeshFall>& falls, const ValidationFigure& figure) {
+  const auto columns = mesh_columns();
+  auto text = fmt::format("### The meshes side by side\n\n{}\n\n| {} |\n", mesh_caption, fmt::join(columns, " | "));
+  for (std::size_t n = 0; n < columns.size(); ++n) text += "|---";
+  text += "|\n";
+  for (const auto& fall : falls) text += fmt::format("| {} |\n", fmt::join(mesh_cells(fall), " | "));
+  return text + fmt::format("\n![{}](verification/{}.svg)\n\n{}\n\n", figure.name, figure.name, figure.caption);
+}
+
 constexpr std::string_view preface = R"(# Verification
 
 Written by `{}`, bedload {} ({}). Do not edit: run the command. Links to study files hold
@@ -110,17 +120,26 @@ std::vector<DocumentFile> verification_document(const std::vector<RungResult>& r
   std::vector<DocumentFile> files{{"verification.md", fmt::format(fmt::runtime(preface), command, build.version,
                                                                   build.commit, good, rows, core_seconds / 60)}};
   std::string group, body;
+  const auto add_figure = [&](const ValidationFigure& figure) {
+    files.push_back({fmt::format("verification/{}.svg", figure.name), standing_alone(figure.svg)});
+  };
+  const auto meshes = mesh_falls(rungs);
+  const auto meshes_figure = mesh_figure(meshes);
+  const auto close_group = [&] {
+    if (group == mesh_group && meshes_figure) body += section_of(meshes, *meshes_figure), add_figure(*meshes_figure);
+  };
   for (const auto& rung : rungs) {
     if (rung.group != group) {
+      close_group();
       group = rung.group;
       const auto named = std::ranges::find(validation_groups(), group, &ValidationGroup::name);
       body += fmt::format("## {}\n\n", group);
       if (named != validation_groups().end()) body += fmt::format("{}.\n\n", capital(named->what));
     }
     body += section_of(rung);
-    for (const auto& figure : rung.findings.figures)
-      files.push_back({fmt::format("verification/{}.svg", figure.name), standing_alone(figure.svg)});
+    for (const auto& figure : rung.findings.figures) add_figure(figure);
   }
+  close_group();
   files.front().text += body;
   return files;
 }

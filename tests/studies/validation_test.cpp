@@ -136,6 +136,25 @@ TEST(Climb, FailsARungWithoutStudyOrRows) {
   EXPECT_FALSE(blind[0].passed());
 }
 
+TEST(VerificationDocument, HoldsTheMeshesSideBySideAfterTheirGroup) {
+  RungResult fine{.group = "settling", .study = "settling-table-5", .what = "a fall", .findings = {}, .failure = ""};
+  fine.findings.falls = {{.cell = 5, .corrected = true, .against_law = 0.001, .ripple = 0.002},
+                         {.cell = 5, .against_law = 0.05, .against_stokes = -0.2, .seconds_of_500_steps = 1.5}};
+  RungResult coarse = fine, last = fine;
+  coarse.study = "settling-table-25", coarse.findings.falls = {{.cell = 25, .against_law = 0.01}};
+  last.group = "bed", last.study = "bed-packed", last.findings.falls.clear();
+  const auto files = verification_document({fine, coarse, last}, "bedload validate");
+  const auto& text = files[0].text;
+  const auto table = text.find("| 25 | raw | +1.00 %");
+  ASSERT_NE(table, std::string::npos) << text;
+  EXPECT_LT(text.find("### settling-table-25"), table);
+  EXPECT_LT(table, text.find("| 5 | raw | +5.00 % | -20.00 % | 0.00 % | 1.50 |"));
+  EXPECT_LT(text.find("| 5 | raw |"), text.find("| 5 | corrected | +0.10 %"));
+  EXPECT_LT(text.find("| 5 | corrected |"), text.find("## bed"));
+  EXPECT_EQ(files[1].path, "verification/settling-meshes.svg");
+  EXPECT_EQ(verification_document({last}, "bedload validate").size(), 1u) << "no figure without falls";
+}
+
 TEST(VerificationDocument, HoldsEveryRowAndItsFigures) {
   const auto files = verification_document(climb(part_of_the_ladder, {.cores = 2}), "bedload validate contact");
   ASSERT_EQ(files.size(), 2u);
