@@ -163,6 +163,10 @@ void CommandLine::validate_commands() {
                        "write verification.md and its figures (extremes: extremes.md) into this folder; not with "
                        "other groups. Links to study files hold in docs/ of the sources");
   forms(validate);
+  validate->footer(
+      "A band with % is of the reference, one without is in the unit of the row; a single number is allowed above and\n"
+      "below, \"at most +0 %\" is a bound: any value up to the reference passes. Notes decide nothing.\n\n" +
+      validate->get_footer());
 }
 
 void CommandLine::case_commands() {

@@ -184,14 +184,15 @@ std::vector<Station> stations_at(double reynolds) {
   if (reynolds < 200)
     return {{"least u", false, .4531, -.21090, ghia},
             {"greatest w", true, .2344, .17527, ghia},
-            {"least w", true, .8104, -.253803, "Marchi, Suero & Araki 2009 (Ghia et al.: -0.2453, 3.4 % off)"}};
+            {"least w", true, .8104, -.253803,
+             "Marchi, Suero & Araki 2009 (Ghia's own value, -0.2453, deviates from it by 3.4 %)"}};
   if (reynolds < 600)
     return {{"least u", false, .2813, -.32726, ghia},
             {"greatest w", true, .2266, .30203, ghia},
             {"least w", true, .8594, -.44993, ghia}};
-  return {{"least u", false, .1719, -.38289, "Ghia, Ghia & Shin 1982 (Botella & Peyret 1998: -0.38857)"},
-          {"greatest w", true, .1563, .37095, "Ghia, Ghia & Shin 1982 (Botella & Peyret 1998: 0.37694)"},
-          {"least w", true, .9063, -.51550, "Ghia, Ghia & Shin 1982 (Botella & Peyret 1998: -0.52708)"}};
+  return {{"least u", false, .1719, -.38289, "Ghia, Ghia & Shin 1982 (Botella & Peyret 1998 have -0.38857)"},
+          {"greatest w", true, .1563, .37095, "Ghia, Ghia & Shin 1982 (Botella & Peyret 1998 have 0.37694)"},
+          {"least w", true, .9063, -.51550, "Ghia, Ghia & Shin 1982 (Botella & Peyret 1998 have -0.52708)"}};
 }
 
 Findings cavity(const std::vector<FinishedCase>& runs) {

@@ -78,7 +78,8 @@ in docs/ of the sources.
 
 Every row is a run of this program, read from its record or its last state, and held against a reference of another origin:
 *code*, the exact answer of the equations that are solved; or *experiment*, what was measured in nature. A *note* is for
-information and decides nothing. The study files are
+information and decides nothing. A band with % is of the reference, one without is in the unit of the row; a single number is
+allowed above and below, "at most +0 %" is a bound: any value up to the reference passes. The study files are
 in [studies/validation](../studies/validation); `bedload run` takes them like any other. `bedload validate [GROUP]` runs them
 in memory and prints these tables, `--quick` a part of them in three minutes on two cores. {} of {} rows are in band;
 {:.1f} core minutes.

@@ -60,6 +60,13 @@ TEST(ValidateCommand, PrintsCsvInNumbersWithGroupAndUnit) {
     EXPECT_TRUE(lines[n].ends_with(",") || std::regex_match(lines[n], row)) << lines[n];   // notes end with a comma
 }
 
+TEST(ValidateCommand, ExplainsItsBands) {
+  const TemporaryDirectory directory;
+  const auto outcome = bedload(directory.path(), {"validate", "--help"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("one without is in the unit of the row"), std::string::npos) << outcome.out;
+}
+
 TEST(ValidateCommand, RefusesAnUnknownGroupWithTheList) {
   const TemporaryDirectory directory;
   const auto outcome = bedload(directory.path(), {"validate", "contct"});

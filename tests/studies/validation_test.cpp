@@ -163,6 +163,7 @@ TEST(VerificationDocument, HoldsEveryRowAndItsFigures) {
   EXPECT_NE(files[0].text.find("![contact-foerster-glass](verification/contact-foerster-glass.svg)"),
             std::string::npos);
   EXPECT_NE(files[0].text.find("Written by `bedload validate contact`"), std::string::npos);
+  EXPECT_NE(files[0].text.find("one without is in the unit of the row"), std::string::npos);
   EXPECT_NE(files[0].text.find("| duration of a collision at 0.05 m/s [us] |"), std::string::npos);
   EXPECT_NE(files[0].text.find("(../studies/validation/contact-hertz.toml)"), std::string::npos);
   EXPECT_EQ(files[0].text.find("**no**"), std::string::npos);
