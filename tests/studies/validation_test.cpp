@@ -120,6 +120,20 @@ TEST(Climb, GivesTheSameNumbersOnOneCoreAsOnThree) {
   }
 }
 
+// atan(Psi1 (5 - 2 beta0)/(7 e)) at 0.25 with e = 0.87 +- 0.02, beta0 = 0.43 +- 0.06: 9.65 +- 0.35 deg, by hand.
+TEST(Foerster, RowsSayTheUncertaintyOfWhatWasMeasured) {
+  const auto acetate = [] {
+    auto rungs = contact_rungs();
+    std::erase_if(rungs, [](const Rung& rung) { return rung.study != "contact-foerster-acetate"; });
+    return rungs;
+  };
+  const auto rungs = climb({{"contact", "collisions", acetate}}, {.cores = 1});
+  ASSERT_EQ(rungs.size(), 1u);
+  const auto& first = rungs[0].findings.rows.at(0);
+  EXPECT_NEAR(first.reference, 9.65, 0.005) << first.name;
+  EXPECT_NE(first.source.find("+-0.35 deg"), std::string::npos) << first.source;
+}
+
 std::vector<Rung> a_rung_without_a_study() { return {{"contact-nothing", "nothing", nullptr, every_case}}; }
 std::vector<Rung> a_rung_that_sees_nothing() {
   return {{"contact-free-fall", "a fall", [](const auto&) { return Findings{}; }, every_case}};
