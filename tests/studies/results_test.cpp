@@ -123,7 +123,7 @@ TEST_F(ResultsTest, SayHowWellTheStepsOfEveryHoldWent) {
   EXPECT_EQ(number("SELECT retries FROM step_health"), 103);
   EXPECT_EQ(number("SELECT deepest_overlap FROM step_health"), 105);
   EXPECT_EQ(number("SELECT divergence_left FROM step_health"), 108);
-  EXPECT_EQ(number("SELECT limited_by_weight FROM step_health"), 117);
+  EXPECT_EQ(number("SELECT limited_by_weight FROM step_health"), 119);
 }
 
 TEST_F(ResultsTest, NameMeasuresOfStepsAsTheCheckpointDoes) {
