@@ -28,9 +28,12 @@ loaded half way, ends in the same bytes. {} of {} scenes are as they must be; {:
 std::string number(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
 std::string number(const std::optional<double>& value) { return value ? number(*value) : "-"; }
 
-std::string line_of(std::vector<std::string> cells) {
-  if (auto& verdict = cells.back(); verdict != "right" && !verdict.empty()) verdict = "**" + verdict + "**";
-  return fmt::format("| {} |\n", fmt::join(cells, " | "));
+std::string line_of(const std::vector<std::string>& cells) { return fmt::format("| {} |\n", fmt::join(cells, " | ")); }
+
+std::string line_of(const ExtremeRow& row) {
+  auto cells = extremes_cells(row);
+  if (!row.wrong().empty()) cells.back() = "**" + cells.back() + "**";
+  return line_of(cells);
 }
 
 std::string head_of(const std::string& base) {
@@ -98,7 +101,7 @@ DocumentFile extremes_document(const std::vector<ExtremeRow>& rows, const std::s
       base = row.scene.base;
       tables += head_of(base);
     }
-    tables += line_of(extremes_cells(row));
+    tables += line_of(row);
     if (!row.message.empty())
       messages += fmt::format("- {}, {}: {}\n", row.scene.base, row.scene.name, first_line(row.message));
   }
