@@ -3,16 +3,9 @@
 
 #include "solver/fluid/boundaries.hpp"
 #include "solver/fluid/face_loops.hpp"
+#include "solver/grains/box_walls.hpp"
 
 namespace bedload {
-namespace {
-
-double wrapped(double x, double length) {
-  x -= length * std::floor(x / length);
-  return x < length ? x : 0;   // rounding of a tiny negative x
-}
-
-}   // namespace
 
 /// Sub-steps of {contacts, motion} under the constant push; drag does not change within them.
 void Coupler::Parts::move_grains(State& state, double dt) {
@@ -26,15 +19,15 @@ void Coupler::Parts::move_grains(State& state, double dt) {
                        dt / health.substeps, health.substeps, state.search.lid_speed);
   health.deepest_overlap = contact.deepest_overlap;
   books.contact_on_walls = contact.force_on_walls;
-  const Vec3 length = scene.bed.length;
+  const PeriodicBox box(scene.bed);
   for (std::size_t p = 0; p < grains.size(); ++p) {
     Vec3& x = grains.position[p];
     moved[p] = x - positions[p];
+    x = box.wrapped(x);
     for (int c = 0; c < 3; ++c) {
       if (!std::isfinite(x[c])) health.finite = false;
       health.grain_travel = std::max(health.grain_travel, std::abs(moved[p][c]) / grid.h[c]);
-      if (grid.periodic(c)) x[c] = wrapped(x[c], length[c]);
-      if (x[c] < 0 || x[c] > length[c]) health.lost_grain = true;
+      if (x[c] < 0 || x[c] > box.length[c]) health.lost_grain = true;
     }
   }
   book_drive_of_grains(state, dt);
@@ -72,6 +65,7 @@ void Coupler::Parts::transport_momentum(State& state, double dt) {
 /// is the fluid's.
 void Coupler::Parts::carry_liquid(State& state, double dt) {
   if (!scene.terms.added_mass || health.substeps == 0 || failed()) return;
+  Stopwatch watch(times.drag);
   const Grains& grains = state.grains;
   const Strides stride(grid);
   const double rho = scene.bed.fluid.density;

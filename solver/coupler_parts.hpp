@@ -98,15 +98,15 @@ struct Coupler::Parts {
   void find_impulse(const State&, double dt);
   void react_on_fluid(const State&, double dt);
   void solve_drag(State&, double dt);
+  void find_carried_mass(const Grains&);
   void book_exchange(const State&, double dt);
   void book_torques(const Grains&, double dt);
   void book_drive_of_fluid(const State&);
   void book_drive_of_grains(const State&, double dt);
-  void find_carried_mass(const Grains&);
   void move_grains(State&, double dt);
-  void carry_liquid(State&, double dt);
   void deposit_at_new_positions(const State&, double dt);
   void transport_momentum(State&, double dt);
+  void carry_liquid(State&, double dt);
   void project(State&, double dt);
   void hold_net_flux(State&, double dt);
   void kick_mixture(State&, double dt);
