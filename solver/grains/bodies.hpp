@@ -1,32 +1,47 @@
-// The grains as the contact pass reads them: everything about one grain in one place of memory.
+// The grains as contacts and motion read them: everything about one grain in one place of memory.
 #pragma once
+
+#include <vector>
 
 #include "base/vec3.hpp"
 
 namespace bedload {
 
-/// Grains lie in rows of four numbers, which are loaded and stored whole.
-using BodyRow = double __attribute__((vector_size(32), may_alias));
+/// A grain as its partners meet it: one line of the cache, read whole for each of its pairs. Place in double; what only
+/// the law of contact reads in float.
+struct alignas(64) Sphere {
+  Vec3 position;       // [m]
+  double radius;       // [m]
+  float velocity[3];   // [m/s]
+  float unused = 0;
+  float surface_velocity[3];   // r omega [m/s]
+  float unused_too = 0;
+};
+static_assert(sizeof(Sphere) == 64);
 
-inline BodyRow load_body_row(const double* at) {
-  return *static_cast<const BodyRow*>(__builtin_assume_aligned(at, 32));
-}
-inline void store_body_row(double* at, BodyRow row) { *static_cast<BodyRow*>(__builtin_assume_aligned(at, 32)) = row; }
-
-/// A pair visits two grains far apart in memory: one block of 96 bytes each costs fewer cache lines than nine arrays.
-/// Three rows of four numbers, as the contact pass loads them.
-struct alignas(32) Body {
-  Vec3 position;            // [m]
-  double radius;            // [m]
+/// A grain as its motion goes on: the velocities of record.
+struct alignas(64) Motion {
   Vec3 velocity;            // [m/s]
   double inverse_mass;      // [1/kg]; 0 = fixed
   Vec3 spin;                // [rad/s]
   double inverse_inertia;   // [1/(kg m2)]; 0 = fixed
 };
-static_assert(sizeof(Body) == 96);
+static_assert(sizeof(Motion) == 64);
 
-/// What the contacts of a grain add up to: two rows of four.
-struct alignas(32) Load {
+struct Bodies {
+  std::vector<Sphere> spheres;
+  std::vector<Motion> motions;
+  std::size_t size() const { return spheres.size(); }
+};
+
+/// What acts on a grain besides contacts.
+struct alignas(32) Push {
+  Vec3 acceleration;   // [m/s2]
+  double damp;         // 1/(1 + dt rate) of the implicit linear drag to rest [-]
+};
+
+/// What the contacts of a grain add up to.
+struct alignas(64) Load {
   Vec3 force;   // [N]
   double unused = 0;
   Vec3 torque;   // [N m]
@@ -34,11 +49,13 @@ struct alignas(32) Load {
 };
 static_assert(sizeof(Load) == 64);
 
-/// Adds a load to a sum, and clears it for the next step.
-inline void book(Load& load, Load& sum) noexcept {
-  store_body_row(&sum.force.x, load_body_row(&sum.force.x) + load_body_row(&load.force.x));
-  store_body_row(&sum.torque.x, load_body_row(&sum.torque.x) + load_body_row(&load.torque.x));
-  store_body_row(&load.force.x, BodyRow{}), store_body_row(&load.torque.x, BodyRow{});
-}
+/// What a contact does to its lower grain; its partner gets the opposite force and the same torque per radius.
+struct alignas(32) ContactLoad {
+  float force[3];   // [N]
+  float unused = 0;
+  float torque_per_radius[3];   // [N]
+  float unused_too = 0;
+};
+static_assert(sizeof(ContactLoad) == 32);
 
 }   // namespace bedload

@@ -1,4 +1,4 @@
-// One pass over the candidates: the law for each, then the sums per grain in order of partner id.
+// What grains do to each other and to walls in one DEM step, contact by contact.
 #pragma once
 
 #include <span>
@@ -9,14 +9,12 @@
 
 namespace bedload {
 
-/// Adds the contact forces and torques of all pairs to `loads`, and renews springs and depths; with `wet` also the
-/// damping, chosen anew where a contact begins. Candidates apart add exact zeros. `loads` starts from zero.
-void add_pair_forces(const HertzMindlin&, const WetRestitution* wet, const PeriodicBox&, std::span<const Body>,
-                     double dt, PairContacts&, std::span<Load> loads) noexcept;
+/// The pairs of a list, and their law, as the kernel takes them. With `wet` the damping is chosen anew where a contact
+/// begins.
+PairPass pair_pass(const HertzMindlin&, const WetRestitution* wet, const Bodies&, double dt, NeighbourList&) noexcept;
 
-/// The same for walls, after the pairs. Returns the force of all grains on the walls [N].
-Vec3 add_wall_forces(const HertzMindlin& rough, const HertzMindlin& smooth, const WetRestitution* wet,
-                     std::span<const FlatWall>, std::span<const Body>, double dt, double lid_speed,
-                     std::span<WallContact>, std::span<Load> loads) noexcept;
+/// Loads of the contacts with walls; renews their springs and depths. Returns the force of all grains on the walls [N].
+Vec3 meet_walls(const HertzMindlin& rough, const HertzMindlin& smooth, const WetRestitution* wet, const Bodies&,
+                double dt, double lid_speed, NeighbourList&) noexcept;
 
 }   // namespace bedload

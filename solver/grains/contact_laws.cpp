@@ -6,15 +6,14 @@
 namespace bedload {
 
 HertzMindlin::HertzMindlin(const GrainProperties& grains)
-    : normal_stiffness_(grains.young_modulus / (1 - grains.poisson * grains.poisson)),
-      shear_ratio_(2 * (1 - grains.poisson) / (2 - grains.poisson)),
-      root_shear_ratio_(std::sqrt(shear_ratio_)),
-      damping_(damping(damping_of_restitution(std::max(grains.restitution, lowest_restitution)))),
-      friction_(grains.friction) {}
+    : material_{grains.young_modulus / (1 - grains.poisson * grains.poisson),
+                2 * (1 - grains.poisson) / (2 - grains.poisson), grains.friction},
+      root_shear_ratio_(std::sqrt(material_.shear_ratio)),
+      damping_(damping(damping_of_restitution(std::max(grains.restitution, lowest_restitution)))) {}
 
 HertzMindlin HertzMindlin::without_friction() const {
   HertzMindlin smooth = *this;
-  smooth.friction_ = 0;
+  smooth.material_.friction = 0;
   return smooth;
 }
 

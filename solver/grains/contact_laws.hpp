@@ -6,6 +6,7 @@
 
 #include "base/vec3.hpp"
 #include "solver/grains/bed_scene.hpp"
+#include "solver/grains/hertz_mindlin.hpp"
 
 namespace bedload {
 
@@ -23,11 +24,7 @@ struct ContactForce {
   Vec3 spring;   // to be handed in at the next step [m]
 };
 
-/// How strongly a contact is damped, gamma_n = normal sqrt(S_n m*), gamma_t = tangential gamma_n (G4).
-struct Damping {
-  double normal;       // alpha [-]
-  double tangential;   // gamma_t/gamma_n [-]
-};
+using Damping = DampingOf<double>;
 
 /// Hertz's normal force with damping, Mindlin's spring with Coulomb's cap: docs/physics_grains.md, (G1)-(G8).
 class HertzMindlin {
@@ -56,23 +53,16 @@ class HertzMindlin {
   double shear_stiffness(const Overlap&) const noexcept;         // S_t [N/m], (G2)
   /// What the springs of a contact hold, 2/5 F_n delta + S_t xi^2/2 [J], F_n without damping; 0 for grains apart.
   double energy(const Overlap&, Vec3 spring) const noexcept;
-  double friction() const noexcept { return friction_; }
+  double friction() const noexcept { return material_.friction; }
+  /// For laws of other numbers than double.
+  const ContactModuli<double>& material() const noexcept { return material_; }
+  double root_shear_ratio() const noexcept { return root_shear_ratio_; }
 
  private:
-  double normal_stiffness_;   // 2 Y* [Pa]
-  double shear_ratio_;        // S_t/S_n = 4 G*/Y* [-]
-  double root_shear_ratio_;   // its square root [-]
+  ContactModuli<double> material_;
+  double root_shear_ratio_;   // of S_t/S_n [-]
   Damping damping_;           // of a dry collision
-  double friction_;           // Coulomb's coefficient [-]
 };
-
-/// The share of a spring that a contact keeps as its radius changes within a step: a growing one keeps its force, a
-/// shrinking one lets it fall with the radius, so that no energy is made (G6). The depth a step ago follows from the
-/// closing speed (symplectic Euler: x^n = x^{n-1} + dt v^n): nothing to remember.
-inline double kept_of_spring(double depth, double closing, double dt) noexcept {
-  const double before = depth - closing * dt > 0 ? depth - closing * dt : 0;
-  return before < depth ? 2 * before / (before + depth) : 1;   // at most a_before/a
-}
 
 /// Restitution of a Hertz collision damped by alpha sqrt(S_n m*) and never pulling, whatever its speed [-].
 double restitution_of_damping(double alpha) noexcept;
@@ -86,38 +76,21 @@ inline Damping HertzMindlin::damping(double alpha) const noexcept {
 }
 
 inline ContactForce HertzMindlin::respond(const Overlap& o, Vec3 spring, double dt, Damping damped) const noexcept {
-  const bool touching = o.depth > 0;
-  const double depth = touching ? o.depth : 0;
-  const double closing = dot(o.velocity, o.normal);
-  const Vec3 sliding = o.velocity - closing * o.normal;
-
-  const double a = o.root_radius * std::sqrt(depth);                      // radius of the contact, (G1)
-  const double stiffness = normal_stiffness_ * a;                         // S_n, (G2)
-  const double damping = damped.normal * std::sqrt(stiffness * o.mass);   // gamma_n, (G4)
-  const double push = stiffness * depth * (2.0 / 3) + damping * closing;
-  const double normal_force = push > 0 ? push : 0;   // (G3), never pulls
-
-  const double kept = kept_of_spring(depth, closing, dt);                       // (G6)
-  spring = kept * (spring - dot(spring, o.normal) * o.normal) + dt * sliding;   // (G5)
-
-  const double shear = shear_ratio_ * stiffness;                                // S_t
-  Vec3 tangential = shear * spring + (damped.tangential * damping) * sliding;   // (G7)
-  const double pull = norm(tangential), cap = friction_ * normal_force;
-  const double scale = pull > cap ? cap / pull : 1;   // the spring slides with its contact, (G8)
-  tangential *= scale;
-  spring *= touching ? scale : 0;
-  return {-(normal_force * o.normal + tangential), spring};
+  const OverlapOf<double> contact{
+      o.depth, o.root_radius, o.mass, {o.normal.x, o.normal.y, o.normal.z}, {o.velocity.x, o.velocity.y, o.velocity.z}};
+  const auto r = hertz_mindlin(material_, contact, {spring.x, spring.y, spring.z}, dt, damped);
+  return {{r.force.x, r.force.y, r.force.z}, {r.spring.x, r.spring.y, r.spring.z}};
 }
 
 inline double HertzMindlin::normal_force(const Overlap& o, Damping damped) const noexcept {
   if (!(o.depth > 0)) return 0;
-  const double stiffness = normal_stiffness_ * o.root_radius * std::sqrt(o.depth);
+  const double stiffness = material_.normal_stiffness * o.root_radius * std::sqrt(o.depth);
   const double damping = damped.normal * std::sqrt(stiffness * o.mass);
   return std::max(0.0, stiffness * o.depth * (2.0 / 3) + damping * dot(o.velocity, o.normal));
 }
 
 inline double HertzMindlin::shear_stiffness(const Overlap& o) const noexcept {
-  return o.depth > 0 ? shear_ratio_ * (normal_stiffness_ * o.root_radius * std::sqrt(o.depth)) : 0;
+  return o.depth > 0 ? material_.shear_ratio * (material_.normal_stiffness * o.root_radius * std::sqrt(o.depth)) : 0;
 }
 
 inline double HertzMindlin::energy(const Overlap& o, Vec3 spring) const noexcept {

@@ -14,7 +14,8 @@ struct Film {
 };
 
 Film film_of(const PairContacts& pairs, std::size_t k) {
-  return {-pairs.depth[k], pairs.root_radius[k] * pairs.root_radius[k]};
+  const double root_radius = pairs.root_radius(k);
+  return {-static_cast<double>(pairs.depth(k)), root_radius * root_radius};
 }
 /// A stress-free surface carries no film.
 Film film_of(const NeighbourList& list, const WallContact& contact) {
@@ -35,27 +36,26 @@ void Films::count(const NeighbourList& list) {
   for (const WallContact& c : list.wall_contacts) films_of_[c.grain] += film_of(list, c).exists() ? 1 : 0;
 }
 
-void Films::prepare(std::span<const Body> bodies, std::span<const Load> loads, std::span<const Vec3> push,
-                    std::span<const double> damp, double dt) {
+void Films::prepare(const Bodies& bodies, std::span<const Load> loads, std::span<const Push> push, double dt) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Body& b = bodies[i];
-    velocity_[i] = b.inverse_mass == 0 ? b.velocity : pushed(b, loads[i].force, push[i], damp[i], dt);
-    mobility_[i] = films_of_[i] * damp[i] * b.inverse_mass;
+    const Motion& m = bodies.motions[i];
+    velocity_[i] = m.inverse_mass == 0 ? m.velocity : pushed(m, loads[i].force, push[i], dt);
+    mobility_[i] = films_of_[i] * push[i].damp * m.inverse_mass;
   }
 }
 
 // F = c v/(1 + dt c/m), m of the shares m_i/n_i and m_j/n_j that a pair has of its grains' masses: all films together
 // then take at most the relative motion away, and never turn it round (G20).
-Vec3 Films::add_forces(const NeighbourList& list, std::span<const Body> bodies, std::span<const Vec3> push,
-                       std::span<const double> damp, double dt, std::span<Load> loads) {
+Vec3 Films::add_forces(const NeighbourList& list, const Bodies& bodies, std::span<const Push> push, double dt,
+                       std::span<Load> loads) {
   velocity_.resize(bodies.size()), mobility_.resize(bodies.size()), films_of_.resize(bodies.size());
   count(list);
-  prepare(bodies, loads, push, damp, dt);
+  prepare(bodies, loads, push, dt);
   for (std::size_t k = 0; k < list.pairs.size(); ++k) {
     const Film film = film_of(list.pairs, k);
     if (!film.exists()) continue;
     const auto i = list.pairs.ids.lower[k], j = list.pairs.ids.higher[k];
-    const Vec3 apart = list.box().shortest(bodies[j].position - bodies[i].position);
+    const Vec3 apart = list.box().shortest(bodies.spheres[j].position - bodies.spheres[i].position);
     const Vec3 normal = apart * (1 / norm(apart));
     const double closing = dot(velocity_[i] - velocity_[j], normal);
     const double c = law_.resistance(film.gap, film.reduced_radius, closing);

@@ -15,14 +15,12 @@ class Films {
  public:
   explicit Films(const BedScene& scene) : law_(scene) {}
 
-  /// Adds the films' forces to `loads`, which hold all others. `push` and `damp` are those of move_bodies; depths are those
+  /// Adds the films' forces to `loads`, which hold all others. Depths are those
   /// of the contact pass of the same step. Returns the force of all grains on the walls through films [N].
-  Vec3 add_forces(const NeighbourList&, std::span<const Body>, std::span<const Vec3> push, std::span<const double> damp,
-                  double dt, std::span<Load> loads);
+  Vec3 add_forces(const NeighbourList&, const Bodies&, std::span<const Push> push, double dt, std::span<Load> loads);
 
  private:
-  void prepare(std::span<const Body>, std::span<const Load>, std::span<const Vec3> push, std::span<const double> damp,
-               double dt);
+  void prepare(const Bodies&, std::span<const Load>, std::span<const Push> push, double dt);
   void count(const NeighbourList&);
 
   FilmLaw law_;

@@ -8,16 +8,25 @@
 
 #include "solver/grains/contact_forces.hpp"
 #include "solver/grains/films.hpp"
-#include "solver/grains/grain_motion.hpp"
 #include "solver/grains/rolling_resistance.hpp"
 
 namespace bedload {
 
+namespace {
+
+// So few that the loads of their contacts are still in the first-level cache when they are added up.
+constexpr std::size_t grains_at_once = 64;
+
+}   // namespace
+
 /// Scratch: nothing here outlives a call in meaning. The springs come from and return to the caller's ContactHistory;
 /// the list is used again only if it still covers the grains that are handed in.
 struct GrainDynamics::Workspace {
-  Workspace(const BedScene& scene, ContactTerms terms)
-      : rough(scene.grains), smooth(rough.without_friction()), list(scene, wet_law(scene, terms), terms.lubrication) {
+  Workspace(const BedScene& scene, ContactTerms terms, const GrainKernels& of_processor)
+      : kernels(of_processor),
+        rough(scene.grains),
+        smooth(rough.without_friction()),
+        list(scene, wet_law(scene, terms), terms.lubrication) {
     if (terms.lubrication) films.emplace(scene);
     if (scene.grains.rolling_friction > 0) rolling.emplace(scene.grains.rolling_friction);
   }
@@ -25,47 +34,54 @@ struct GrainDynamics::Workspace {
   void take(const Grains&, const GrainDrive&, double dt);
   void give(Grains&, int substeps) const;
   void prepare_list(ContactHistory&, double dt, bool list_holds_springs);
-  Vec3 add_forces(const GrainDrive&, double dt, double lid_speed);
+  Vec3 advance(const GrainDrive&, double dt, double lid_speed);
+  Vec3 add_rare_forces(double dt, std::span<Load>);
   double deepest_overlap() const;
 
   const WetRestitution* wet_law(const BedScene& scene, ContactTerms terms) {
     return terms.wet_restitution ? &wet.emplace(scene.fluid, scene.grains.restitution) : nullptr;
   }
 
+  const GrainKernels& kernels;
   HertzMindlin rough, smooth;
   std::optional<WetRestitution> wet;
   std::optional<Films> films;
   std::optional<RollingResistance> rolling;
   NeighbourList list;
-  std::vector<Body> bodies;
-  std::vector<Load> loads;
-  std::vector<Load> sum_of_loads;
-  std::vector<double> damp;
+  Bodies bodies;
+  std::vector<Push> push;
+  std::vector<Load> loads, sums;
 };
 
 void GrainDynamics::Workspace::take(const Grains& grains, const GrainDrive& drive, double dt) {
   const std::size_t n = grains.size();
-  bodies.resize(n), damp.resize(n);
-  loads.assign(n, {}), sum_of_loads.assign(n, {});
+  bodies.spheres.resize(n), bodies.motions.resize(n), push.resize(n);
+  sums.assign(n, {});
   for (std::size_t i = 0; i < n; ++i) {
     const double mass = grains.density[i] * sphere_volume(grains.diameter[i]);
     const double inertia = drive.added_mass.empty() ? mass : mass + drive.added_mass[i];
     const bool fixed = grains.fixed[i] != 0;
-    bodies[i] = {grains.position[i], 0.5 * grains.diameter[i],
-                 grains.velocity[i], fixed ? 0 : 1 / inertia,
-                 grains.spin[i],     fixed ? 0 : 1 / sphere_inertia(mass, grains.diameter[i])};
-    damp[i] = drive.relaxation.empty() ? 1 : 1 / (1 + dt * drive.relaxation[i]);
+    const Vec3 v = grains.velocity[i], surface = 0.5 * grains.diameter[i] * grains.spin[i];
+    const auto real = [](double x) { return static_cast<float>(x); };
+    bodies.spheres[i] = {grains.position[i],
+                         0.5 * grains.diameter[i],
+                         {real(v.x), real(v.y), real(v.z)},
+                         0,
+                         {real(surface.x), real(surface.y), real(surface.z)}};
+    bodies.motions[i] = {v, fixed ? 0 : 1 / inertia, grains.spin[i],
+                         fixed ? 0 : 1 / sphere_inertia(mass, grains.diameter[i])};
+    push[i] = {drive.push[i], drive.relaxation.empty() ? 1 : 1 / (1 + dt * drive.relaxation[i])};
   }
 }
 
 void GrainDynamics::Workspace::give(Grains& grains, int substeps) const {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    grains.mean_contact_force[i] = sum_of_loads[i].force / substeps;
-    grains.mean_contact_torque[i] = sum_of_loads[i].torque / substeps;
+    grains.mean_contact_force[i] = sums[i].force / substeps;
+    grains.mean_contact_torque[i] = sums[i].torque / substeps;
     if (grains.fixed[i]) continue;
-    grains.position[i] = bodies[i].position;
-    grains.velocity[i] = bodies[i].velocity;
-    grains.spin[i] = bodies[i].spin;
+    grains.position[i] = bodies.spheres[i].position;
+    grains.velocity[i] = bodies.motions[i].velocity;
+    grains.spin[i] = bodies.motions[i].spin;
   }
 }
 
@@ -74,36 +90,64 @@ void GrainDynamics::Workspace::prepare_list(ContactHistory& history, double dt, 
     if (list.still_covers(bodies)) return;
     list.save(history);
   } else if (list.covers(bodies)) {
-    list.load(history);
+    list.recall(history);
     return;
   }
   list.rebuild(bodies, dt, history);
 }
 
-/// The loads of a sub-step, films last: they act on the velocity that all other forces would leave. Returns the force of
-/// the grains on the walls [N].
-Vec3 GrainDynamics::Workspace::add_forces(const GrainDrive& drive, double dt, double lid_speed) {
-  const WetRestitution* const damping = wet ? &*wet : nullptr;
-  add_pair_forces(rough, damping, list.box(), bodies, dt, list.pairs, loads);
-  Vec3 on_walls =
-      add_wall_forces(rough, smooth, damping, list.walls(), bodies, dt, lid_speed, list.wall_contacts, loads);
-  if (rolling) add_rolling_torques(*rolling, rough, bodies, dt, list, loads);
-  if (films) on_walls += films->add_forces(list, bodies, drive.push, damp, dt, loads);
+/// Torques and forces that few scenes have, films last: they act on the velocity that all other forces would leave.
+/// Returns the force of the grains on the walls [N].
+Vec3 GrainDynamics::Workspace::add_rare_forces(double dt, std::span<Load> of) {
+  if (rolling) add_rolling_torques(*rolling, rough, bodies, dt, list, of);
+  return films ? films->add_forces(list, bodies, push, dt, of) : Vec3{};
+}
+
+/// One sub-step. All pairs of a grain have a lower id no higher than its own: once those are met, nothing asks for the grain
+/// any more, and it may move. Returns the force of the grains on the walls [N].
+Vec3 GrainDynamics::Workspace::advance(const GrainDrive& drive, double dt, double lid_speed) {
+  const std::size_t n = bodies.size();
+  const bool rare = rolling || films;
+  const std::size_t at_once = rare ? n : std::min(n, grains_at_once);
+  loads.resize(at_once);
+  Vec3 on_walls = meet_walls(rough, smooth, wet ? &*wet : nullptr, bodies, dt, lid_speed, list);
+  const PairPass pairs = pair_pass(rough, wet ? &*wet : nullptr, bodies, dt, list);
+  SumPass sum{bodies.spheres.data(), list.loads.load.data(), list.loads.places.data(),
+              list.loads.further_as_higher.data(), list.loads.further_as_lower.data()};
+  const MotionPass motion{bodies.spheres.data(),
+                          bodies.motions.data(),
+                          push.data(),
+                          drive.spin_push.empty() ? nullptr : drive.spin_push.data(),
+                          list.inverse_skins().data(),
+                          sums.data(),
+                          dt};
+  double fastest = 0;
+  for (std::size_t first = 0, met = 0; first < n; first += at_once) {
+    const std::size_t last = std::min(n, first + at_once), to_meet = list.blocks_of_grains_below(last);
+    if (to_meet > met) kernels.meet(pairs, met, to_meet), met = to_meet;
+    kernels.add_up(sum, first, last, loads.data());
+    if (rare) on_walls += add_rare_forces(dt, loads);
+    fastest = std::max(fastest, kernels.move(motion, first, last, loads.data()));
+  }
+  list.note_speed(std::sqrt(fastest), dt);
   return on_walls;
 }
 
 double GrainDynamics::Workspace::deepest_overlap() const {
   double deepest = 0;
   for (std::size_t k = 0; k < list.pairs.size(); ++k) {
-    const double smaller = std::min(bodies[list.pairs.ids.lower[k]].radius, bodies[list.pairs.ids.higher[k]].radius);
-    deepest = std::max(deepest, list.pairs.depth[k] / (2 * smaller));
+    if (!(list.pairs.depth(k) > 0)) continue;
+    const double smaller =
+        std::min(bodies.spheres[list.pairs.ids.lower[k]].radius, bodies.spheres[list.pairs.ids.higher[k]].radius);
+    deepest = std::max(deepest, static_cast<double>(list.pairs.depth(k)) / (2 * smaller));
   }
-  for (const WallContact& c : list.wall_contacts) deepest = std::max(deepest, c.depth / (2 * bodies[c.grain].radius));
+  for (const WallContact& c : list.wall_contacts)
+    deepest = std::max(deepest, c.depth / (2 * bodies.spheres[c.grain].radius));
   return deepest;
 }
 
-GrainDynamics::GrainDynamics(const BedScene& scene, ContactTerms terms)
-    : work_(std::make_unique<Workspace>(scene, terms)) {}
+GrainDynamics::GrainDynamics(const BedScene& scene, ContactTerms terms, const GrainKernels& kernels)
+    : work_(std::make_unique<Workspace>(scene, terms, kernels)) {}
 GrainDynamics::~GrainDynamics() = default;
 void GrainDynamics::forget() { work_->list.forget(); }
 
@@ -114,9 +158,7 @@ GrainHealth GrainDynamics::advance(Grains& grains, ContactHistory& contacts, con
   w.take(grains, drive, dt);
   for (int s = 0; s < substeps; ++s) {
     w.prepare_list(contacts, dt, s > 0);
-    health.force_on_walls += w.add_forces(drive, dt, lid_speed);
-    spin_bodies(w.bodies, drive.spin_push, dt);
-    move_bodies(w.bodies, w.loads, drive.push, w.damp, dt, w.sum_of_loads);
+    health.force_on_walls += w.advance(drive, dt, lid_speed);
   }
   w.list.save(contacts);
   w.give(grains, substeps);

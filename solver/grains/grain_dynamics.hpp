@@ -7,6 +7,7 @@
 #include "solver/grains/bed_scene.hpp"
 #include "solver/grains/contact_history.hpp"
 #include "solver/grains/contact_terms.hpp"
+#include "solver/grains/grain_kernels.hpp"
 #include "solver/grains/grains.hpp"
 
 namespace bedload {
@@ -30,8 +31,8 @@ struct GrainDrive {
 /// a periodic box during the call. Fixed grains keep position, velocity and spin.
 class GrainDynamics {
  public:
-  /// The liquid of the terms is scene.fluid.
-  explicit GrainDynamics(const BedScene&, ContactTerms = {});
+  /// The liquid of the terms is scene.fluid. All kernels give the same bits.
+  explicit GrainDynamics(const BedScene&, ContactTerms = {}, const GrainKernels& = grain_kernels());
   ~GrainDynamics();
 
   /// `lid_speed`: of the top wall along x [m/s]. On return velocity, position, spin, contacts are those of the end,

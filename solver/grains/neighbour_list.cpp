@@ -10,16 +10,20 @@ namespace {
 
 // Wide enough for some tens of steps of a moving grain, narrow for one at rest: most listed pairs touch. (Measured: 12 to
 // 30 steps cost the same in an eroding bed, 50 a tenth more.)
-double skin_of(const Body& body, double dt) {
-  if (body.inverse_mass == 0) return 0;
-  const double diameter = 2 * body.radius;
-  return std::min(0.01 * diameter + 1.3 * 25 * dt * norm(body.velocity), 0.2 * diameter);
+double skin_of(const Sphere& sphere, const Motion& motion, double dt) {
+  if (motion.inverse_mass == 0) return 0;
+  const double diameter = 2 * sphere.radius;
+  return std::min(0.01 * diameter + 1.3 * 25 * dt * norm(motion.velocity), 0.2 * diameter);
 }
 
 // R* of two grains is at most a quarter of r_i + r_j, so that these parts reach the thickest film.
 constexpr double film_reach = FilmLaw::thickest / 4;
 
-double reduced_mass(const Body& a, const Body& b) { return 1 / (a.inverse_mass + b.inverse_mass); }
+float reduced_mass(const Motion& a, const Motion& b) { return 1 / static_cast<float>(a.inverse_mass + b.inverse_mass); }
+
+SolidSphere solid(const Bodies& bodies, std::size_t i) {
+  return {bodies.spheres[i].radius, bodies.motions[i].inverse_inertia};
+}
 
 bool before(std::uint32_t lower_a, std::uint32_t higher_a, std::uint32_t lower_b, std::uint32_t higher_b) {
   return lower_a != lower_b ? lower_a < lower_b : higher_a < higher_b;
@@ -30,93 +34,151 @@ bool before(std::uint32_t lower_a, std::uint32_t higher_a, std::uint32_t lower_b
 NeighbourList::NeighbourList(const BedScene& scene, const WetRestitution* wet, bool films)
     : box_(scene), walls_(walls_of(scene)), wet_(wet), films_(films), rolls_(scene.grains.rolling_friction > 0) {}
 
-bool NeighbourList::same_grains(std::span<const Body> bodies) const noexcept {
+bool NeighbourList::same_grains(const Bodies& bodies) const noexcept {
   if (origin_.size() != bodies.size()) return false;
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].radius != radius_[i] || (bodies[i].inverse_mass == 0) != (inverse_mass_[i] == 0)) return false;
+    if (bodies.spheres[i].radius != radius_[i] || (bodies.motions[i].inverse_mass == 0) != (inverse_mass_[i] == 0))
+      return false;
   return true;
 }
 
 /// Masses of the contacts, if any grain's has changed.
-void NeighbourList::weigh(std::span<const Body> bodies) noexcept {
-  if (std::ranges::equal(bodies, inverse_mass_, {}, &Body::inverse_mass)) return;
-  std::ranges::transform(bodies, inverse_mass_.begin(), &Body::inverse_mass);
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    pairs.mass[k] = reduced_mass(bodies[pairs.ids.lower[k]], bodies[pairs.ids.higher[k]]);
-  for (WallContact& c : wall_contacts) c.mass = 1 / bodies[c.grain].inverse_mass;
+void NeighbourList::weigh(const Bodies& bodies) noexcept {
+  if (std::ranges::equal(bodies.motions, inverse_mass_, {}, &Motion::inverse_mass)) return;
+  std::ranges::transform(bodies.motions, inverse_mass_.begin(), &Motion::inverse_mass);
+  for (PairBlock& b : pairs.blocks)
+    for (std::size_t k = 0; k < PairBlock::pairs; ++k)
+      b.mass[k] = reduced_mass(bodies.motions[b.lower[k]], bodies.motions[b.higher[k]]);
+  for (WallContact& c : wall_contacts) c.mass = 1 / bodies.motions[c.grain].inverse_mass;
 }
 
-bool NeighbourList::covers(std::span<const Body> bodies) noexcept {
+/// Of the ways that grains have gone since the list was made, the longest [skins].
+double NeighbourList::furthest(const Bodies& bodies) const noexcept {
+  double most = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    most = std::max(most, inverse_skin_[i] * inverse_skin_[i] * norm2(bodies.spheres[i].position - origin_[i]));
+  return std::sqrt(most);
+}
+
+bool NeighbourList::covers(const Bodies& bodies) noexcept {
   if (!same_grains(bodies)) return false;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Vec3 moved = box_.shortest(bodies[i].position - origin_[i].position);
-    origin_[i].position = bodies[i].position - moved;   // the image that belongs to the body
+    const Vec3 moved = box_.shortest(bodies.spheres[i].position - origin_[i]);
+    origin_[i] = bodies.spheres[i].position - moved;   // the image that belongs to the body
+    if (fixed_[i] && norm2(moved) > 0) return false;
   }
-  if (!still_covers(bodies)) return false;
+  travelled_ = furthest(bodies);
+  if (!(travelled_ <= 1)) return false;
   weigh(bodies);
   return true;
 }
 
-bool NeighbourList::still_covers(std::span<const Body> bodies) const noexcept {
-  bool inside = true;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    inside &= norm2(bodies[i].position - origin_[i].position) <= origin_[i].skin2;
-  return inside;
+bool NeighbourList::still_covers(const Bodies& bodies) noexcept {
+  constexpr double sure = 1 - 1e-9;   // of sums of many steps
+  if (travelled_ <= sure) return true;
+  travelled_ = furthest(bodies);
+  return travelled_ <= sure;
 }
 
-void NeighbourList::rebuild(std::span<const Body> bodies, double dt, const ContactHistory& history) {
+void NeighbourList::rebuild(const Bodies& bodies, double dt, const ContactHistory& history) {
   const std::size_t n = bodies.size();
-  origin_.resize(n), radius_.resize(n), inverse_mass_.resize(n), reach_.resize(n), position_.resize(n),
+  origin_.resize(n), inverse_skin_.resize(n), radius_.resize(n), inverse_mass_.resize(n), reach_.resize(n),
       fixed_.resize(n);
   double largest = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const double skin = skin_of(bodies[i], dt);
-    origin_[i] = {bodies[i].position, skin * skin};
-    radius_[i] = bodies[i].radius;
-    inverse_mass_[i] = bodies[i].inverse_mass;
-    reach_[i] = bodies[i].radius + skin + (films_ ? film_reach * bodies[i].radius : 0);
-    position_[i] = bodies[i].position;
-    fixed_[i] = bodies[i].inverse_mass == 0;
-    largest = std::max(largest, 2 * bodies[i].radius);
+    const Sphere& sphere = bodies.spheres[i];
+    const double skin = skin_of(sphere, bodies.motions[i], dt);
+    origin_[i] = sphere.position;
+    inverse_skin_[i] = skin > 0 ? 1 / skin : 0;
+    radius_[i] = sphere.radius;
+    inverse_mass_[i] = bodies.motions[i].inverse_mass;
+    reach_[i] = sphere.radius + skin + (films_ ? film_reach * sphere.radius : 0);
+    fixed_[i] = bodies.motions[i].inverse_mass == 0;
+    largest = std::max(largest, 2 * sphere.radius);
   }
+  travelled_ = 0;
   check_periodic_sides(box_, largest);
   list_pairs(bodies);
   list_walls(bodies);
+  place_loads(n);
   load(history);
 }
 
-void NeighbourList::list_pairs(std::span<const Body> bodies) {
-  find_near_pairs(box_, position_, reach_, fixed_, pairs.ids);
+void NeighbourList::list_pairs(const Bodies& bodies) {
+  find_near_pairs(box_, origin_, reach_, fixed_, pairs.ids);
   const std::size_t n = pairs.size();
-  for (auto* array : {&pairs.root_radius, &pairs.mass, &pairs.depth, &pairs.spring_x, &pairs.spring_y, &pairs.spring_z})
-    array->resize(n);
-  pairs.viscous_speed.resize(wet_ ? n : 0), pairs.damping.resize(wet_ ? n : 0), pairs.rolling.resize(rolls_ ? n : 0);
-  for (std::size_t k = 0; k < n; ++k) {
-    const Body &a = bodies[pairs.ids.lower[k]], &b = bodies[pairs.ids.higher[k]];
-    pairs.root_radius[k] = std::sqrt(a.radius * b.radius / (a.radius + b.radius));
-    pairs.mass[k] = reduced_mass(a, b);
-    if (wet_) pairs.viscous_speed[k] = wet_->viscous_speed(a, b);
+  pairs.blocks.assign((n + PairBlock::pairs - 1) / PairBlock::pairs, {});
+  pairs.rolling.resize(rolls_ ? n : 0);
+  for (std::size_t pair = 0; pair < n; ++pair) {
+    PairBlock& block = pairs.blocks[pair / PairBlock::pairs];
+    const std::size_t k = pair % PairBlock::pairs;
+    const auto i = pairs.ids.lower[pair], j = pairs.ids.higher[pair];
+    const double sum = radius_[i] + radius_[j];
+    const float inverse = 1 / static_cast<float>(sum);
+    block.lower[k] = i, block.higher[k] = j;
+    block.radius_sum[k] = sum;
+    block.inverse_radius_sum[k] = inverse;
+    block.root_radius[k] = std::sqrt(static_cast<float>(radius_[i]) * static_cast<float>(radius_[j]) * inverse);
+    block.mass[k] = reduced_mass(bodies.motions[i], bodies.motions[j]);
+    if (wet_) block.viscous_speed[k] = static_cast<float>(wet_->viscous_speed(solid(bodies, i), solid(bodies, j)));
   }
 }
 
-void NeighbourList::list_walls(std::span<const Body> bodies) {
+void NeighbourList::list_walls(const Bodies& bodies) {
   wall_contacts.clear();
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    const Body& body = bodies[i];
+    const Sphere& sphere = bodies.spheres[i];
     if (fixed_[i]) continue;
-    const double reach = reach_[i] + (films_ ? (FilmLaw::thickest - film_reach) * body.radius : 0);   // R* = r
+    const double reach = reach_[i] + (films_ ? (FilmLaw::thickest - film_reach) * sphere.radius : 0);   // R* = r
     for (std::uint32_t w = 0; w < walls_.size(); ++w) {
-      if (!(walls_[w].depth(body.position, reach) > 0)) continue;
-      wall_contacts.push_back({i, w, std::sqrt(body.radius), 1 / body.inverse_mass, 0, {}});
-      if (wet_) wall_contacts.back().viscous_speed = wet_->viscous_speed_at_wall(body);
+      if (!(walls_[w].depth(sphere.position, reach) > 0)) continue;
+      wall_contacts.push_back({i, w, std::sqrt(sphere.radius), 1 / inverse_mass_[i], 0, {}});
+      if (wet_) wall_contacts.back().viscous_speed = wet_->viscous_speed_at_wall(solid(bodies, i));
     }
   }
 }
 
+/// Gives every contact a place, and every grain the places of its contacts in order of its partners' ids, walls last.
+void NeighbourList::place_loads(std::size_t grains) {
+  loads.first_wall = pairs.blocks.size() * PairBlock::pairs;
+  const auto at = [](std::size_t load) { return static_cast<std::uint32_t>(load * sizeof(ContactLoad)); };
+  const std::size_t last = loads.first_wall + wall_contacts.size();
+  const std::uint32_t none = at(last);
+  loads.load.assign(last + 1, {});
+  loads.places.resize(grains), first_pair_.resize(grains + 1);
+  loads.further_as_higher.clear(), loads.further_as_lower.clear();
+  std::vector<std::uint8_t> higher(grains, 0), lower(grains, 0);   // direct places in use
+  std::ranges::fill(loads.places, ContactPlaces{{none, none, none, none}, {none, none, none, none}});
+  const auto add = [at](auto& direct, std::uint8_t& used, auto& further, std::uint32_t grain, std::size_t load) {
+    if (used < ContactPlaces::direct) direct[used++] = at(load);
+    else further.push_back({grain, at(load)});
+  };
+  std::uint32_t pair = 0, touch = 0;
+  for (std::uint32_t i = 0; i < grains; ++i) {
+    ContactPlaces& own = loads.places[i];
+    first_pair_[i] = pair;
+    for (; pair < pairs.size() && pairs.ids.lower[pair] == i; ++pair) {
+      const auto j = pairs.ids.higher[pair];
+      add(own.as_lower, lower[i], loads.further_as_lower, i, pair);
+      add(loads.places[j].as_higher, higher[j], loads.further_as_higher, j, pair);
+    }
+    for (; touch < wall_contacts.size() && wall_contacts[touch].grain == i; ++touch)
+      add(own.as_lower, lower[i], loads.further_as_lower, i, loads.first_wall + touch);
+  }
+  first_pair_[grains] = pair;
+  std::ranges::stable_sort(loads.further_as_higher, {}, &FurtherPlace::grain);
+  loads.further_as_higher.push_back({UINT32_MAX, none}), loads.further_as_lower.push_back({UINT32_MAX, none});
+}
+
+void NeighbourList::recall(const ContactHistory& history) {
+  if (history != saved_) load(history);
+}
+
 void NeighbourList::load(const ContactHistory& history) {
   std::size_t pair = 0, touch = 0;
-  for (auto* array : {&pairs.depth, &pairs.spring_x, &pairs.spring_y, &pairs.spring_z}) std::ranges::fill(*array, 0.0);
-  std::ranges::fill(pairs.damping, -1.0);
+  for (PairBlock& b : pairs.blocks)
+    for (std::size_t k = 0; k < PairBlock::pairs; ++k)
+      b.depth[k] = b.spring_x[k] = b.spring_y[k] = b.spring_z[k] = 0, b.damping[k] = -1;
   std::ranges::fill(pairs.rolling, Vec3{});
   for (auto& contact : wall_contacts)
     contact.depth = 0, contact.spring = {}, contact.damping = -1, contact.rolling = {};
@@ -137,40 +199,45 @@ void NeighbourList::load(const ContactHistory& history) {
     } else {
       while (pair < pairs.size() && before(pairs.ids.lower[pair], pairs.ids.higher[pair], lower, higher)) ++pair;
       if (pair < pairs.size() && pairs.ids.lower[pair] == lower && pairs.ids.higher[pair] == higher) {
-        pairs.spring_x[pair] = history.spring[h].x;
-        pairs.spring_y[pair] = history.spring[h].y;
-        pairs.spring_z[pair] = history.spring[h].z;
-        if (damped) pairs.damping[pair] = history.damping[h];
+        PairBlock& block = pairs.blocks[pair / PairBlock::pairs];
+        const std::size_t k = pair % PairBlock::pairs;
+        block.spring_x[k] = static_cast<float>(history.spring[h].x);
+        block.spring_y[k] = static_cast<float>(history.spring[h].y);
+        block.spring_z[k] = static_cast<float>(history.spring[h].z);
+        if (damped) block.damping[k] = static_cast<float>(history.damping[h]);
         if (rolls) pairs.rolling[pair] = history.rolling[h];
       }
     }
   }
 }
 
-void NeighbourList::save(ContactHistory& history) const {
-  history.lower.clear(), history.higher.clear(), history.spring.clear(), history.damping.clear(),
-      history.rolling.clear();
-  const auto remember = [&](std::uint32_t lower, std::uint32_t higher, Vec3 spring) {
-    history.lower.push_back(lower), history.higher.push_back(higher), history.spring.push_back(spring);
-  };
+void NeighbourList::save(ContactHistory& history) {
+  saved_.lower.clear(), saved_.higher.clear(), saved_.spring.clear(), saved_.damping.clear(), saved_.rolling.clear();
+  for (auto* ids : {&saved_.lower, &saved_.higher}) ids->reserve(pairs.size() + wall_contacts.size());
+  saved_.spring.reserve(pairs.size() + wall_contacts.size());
   std::size_t touch = 0;
   const auto walls_of_grains_below = [&](std::uint32_t grain) {
     for (; touch < wall_contacts.size() && wall_contacts[touch].grain < grain; ++touch) {
       const WallContact& c = wall_contacts[touch];
       if (!(c.depth > 0)) continue;
-      remember(c.grain, static_cast<std::uint32_t>(walls_[c.wall].name), c.spring);
-      if (wet_) history.damping.push_back(c.damping);
-      if (rolls_) history.rolling.push_back(c.rolling);
+      saved_.lower.push_back(c.grain), saved_.higher.push_back(static_cast<std::uint32_t>(walls_[c.wall].name));
+      saved_.spring.push_back(c.spring);
+      if (wet_) saved_.damping.push_back(c.damping);
+      if (rolls_) saved_.rolling.push_back(c.rolling);
     }
   };
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (!(pairs.depth[k] > 0)) continue;
-    walls_of_grains_below(pairs.ids.lower[k]);
-    remember(pairs.ids.lower[k], pairs.ids.higher[k], {pairs.spring_x[k], pairs.spring_y[k], pairs.spring_z[k]});
-    if (wet_) history.damping.push_back(pairs.damping[k]);
-    if (rolls_) history.rolling.push_back(pairs.rolling[k]);
+  for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
+    const PairBlock& b = pairs.blocks[pair / PairBlock::pairs];
+    const std::size_t k = pair % PairBlock::pairs;
+    if (!(b.depth[k] > 0)) continue;
+    walls_of_grains_below(b.lower[k]);
+    saved_.lower.push_back(b.lower[k]), saved_.higher.push_back(b.higher[k]);
+    saved_.spring.push_back({b.spring_x[k], b.spring_y[k], b.spring_z[k]});
+    if (wet_) saved_.damping.push_back(b.damping[k]);
+    if (rolls_) saved_.rolling.push_back(pairs.rolling[pair]);
   }
   walls_of_grains_below(UINT32_MAX);
+  history = saved_;
 }
 
 }   // namespace bedload

@@ -5,27 +5,25 @@
 #include <span>
 #include <vector>
 
-#include "solver/grains/bodies.hpp"
 #include "solver/grains/box_walls.hpp"
 #include "solver/grains/contact_history.hpp"
+#include "solver/grains/grain_kernels.hpp"
 #include "solver/grains/neighbour_search.hpp"
 #include "solver/grains/wet_restitution.hpp"
 
 namespace bedload {
 
-/// Candidate pairs as aligned arrays, sorted by lower then higher id, so that one pass in order sums the forces on
-/// every grain in order of its partners' ids: first those below it (as their higher one), then those above.
+/// Candidate pairs in blocks, sorted by lower then higher id.
 struct PairContacts {
   PairList ids;
-  std::vector<double> root_radius;                    // sqrt(R*) [m^1/2]
-  std::vector<double> mass;                           // m* [kg]
-  std::vector<double> depth;                          // at the last pass [m]; not positive: apart
-  std::vector<double> spring_x, spring_y, spring_z;   // [m]
-  std::vector<double> viscous_speed;                  // of WetRestitution [m/s]; empty without
-  std::vector<double> damping;                        // alpha, negative where apart [-]; empty without
-  std::vector<Vec3> rolling;                          // rolling spring [rad]; empty without rolling friction
+  std::vector<PairBlock> blocks;
+  std::vector<Vec3> rolling;   // rolling spring [rad]; empty without rolling friction
 
   std::size_t size() const { return ids.size(); }
+  float depth(std::size_t k) const { return blocks[k / PairBlock::pairs].depth[k % PairBlock::pairs]; }
+  float root_radius(std::size_t k) const { return blocks[k / PairBlock::pairs].root_radius[k % PairBlock::pairs]; }
+  float mass(std::size_t k) const { return blocks[k / PairBlock::pairs].mass[k % PairBlock::pairs]; }
+  float damping(std::size_t k) const { return blocks[k / PairBlock::pairs].damping[k % PairBlock::pairs]; }
 };
 
 /// Candidates for contact with walls, sorted by grain then wall.
@@ -40,6 +38,15 @@ struct WallContact {
   Vec3 rolling;
 };
 
+/// Where the loads of all contacts are, and which of them each grain adds up: pairs in their order, then walls, then one
+/// that is always zero.
+struct ContactLoads {
+  std::vector<ContactLoad> load;
+  std::vector<ContactPlaces> places;                               // one per grain
+  std::vector<FurtherPlace> further_as_higher, further_as_lower;   // by grain, then in order of the pairs
+  std::size_t first_wall = 0;                                      // the place of the first wall contact
+};
+
 class NeighbourList {
  public:
   /// `wet` (or null) must outlive the list.
@@ -47,43 +54,54 @@ class NeighbourList {
 
   /// True if the list is of these very grains, and every pair that may touch now is in it. `bodies` may have been
   /// wrapped since the list was made, and may be heavier or lighter now (added mass).
-  bool covers(std::span<const Body> bodies) noexcept;
-  /// The same, for grains that have only moved since `covers` or `rebuild`.
-  bool still_covers(std::span<const Body> bodies) const noexcept;
+  bool covers(const Bodies&) noexcept;
+  /// The same, for grains that have only moved since `covers` or `rebuild`, never faster than `note_speed` was told.
+  bool still_covers(const Bodies&) noexcept;
+  /// `fastest`: of all grains in this step dt [skins/s].
+  void note_speed(double fastest, double dt) noexcept { travelled_ += dt * fastest; }
   /// Makes the list anew for these bodies, and carries `history` into it. A skin lasts about 25 steps dt.
-  void rebuild(std::span<const Body> bodies, double dt, const ContactHistory& history);
-  /// Hands the springs of `history` to the list. Every pair in it must be listed (it touched when it was saved).
-  void load(const ContactHistory& history);
+  void rebuild(const Bodies&, double dt, const ContactHistory& history);
+  /// Takes the springs from `history`, unless the list holds them already. Every pair in it must be listed (it touched
+  /// when it was saved).
+  void recall(const ContactHistory& history);
   /// What touched at the last pass.
-  void save(ContactHistory& history) const;
+  void save(ContactHistory& history);
   void forget() { origin_.clear(); }
 
   PairContacts pairs;
   std::vector<WallContact> wall_contacts;
+  ContactLoads loads;
+  /// How many blocks hold all pairs whose lower id is below this grain.
+  std::size_t blocks_of_grains_below(std::size_t grain) const {
+    return (first_pair_[grain] + PairBlock::pairs - 1) / PairBlock::pairs;
+  }
+  std::span<const double> inverse_skins() const { return inverse_skin_; }   // [1/m]; 0 for fixed grains
   const std::vector<FlatWall>& walls() const { return walls_; }
   const PeriodicBox& box() const { return box_; }
+  bool wet() const { return wet_ != nullptr; }
 
  private:
-  void list_pairs(std::span<const Body> bodies);
-  void list_walls(std::span<const Body> bodies);
+  void load(const ContactHistory&);
+  void list_pairs(const Bodies&);
+  void list_walls(const Bodies&);
+  void place_loads(std::size_t grains);
+  bool same_grains(const Bodies&) const noexcept;
+  void weigh(const Bodies&) noexcept;
+  double furthest(const Bodies&) const noexcept;
 
   PeriodicBox box_;
   std::vector<FlatWall> walls_;
   const WetRestitution* wet_;
   bool films_, rolls_;
-  /// Where a grain was when the list was made, and how far it may have moved.
-  struct Origin {
-    Vec3 position;   // [m]
-    double skin2;    // square of the skin [m2]
-  };
-  bool same_grains(std::span<const Body> bodies) const noexcept;
-  void weigh(std::span<const Body> bodies) noexcept;
 
-  std::vector<Origin> origin_;
+  std::vector<std::uint32_t> first_pair_;       // of each grain as the lower one, and one beyond the last
+  double travelled_ = 0;                        // no grain has gone further since the list was made [skins]
+  std::vector<Vec3> origin_;                    // where a grain was when the list was made [m]
+  std::vector<double> inverse_skin_;            // [1/m]
   std::vector<double> radius_, inverse_mass_;   // then
-  std::vector<Vec3> position_;                  // for the search
   std::vector<double> reach_;                   // radius and skin, and a pair's part of a film [m]
   std::vector<std::uint8_t> fixed_;
+  ContactHistory saved_;   // what `save` gave last: the list holds it
 };
 
 }   // namespace bedload

@@ -1,8 +1,13 @@
 // Grains counted into cells not smaller than the largest reach; each grain looks into its cell and those around.
 #include "solver/grains/neighbour_search.hpp"
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -11,36 +16,78 @@
 namespace bedload {
 namespace {
 
-/// Cells over the box, and the grains of each in order of id.
+constexpr std::size_t lanes = 8;
+using Floats = float __attribute__((vector_size(32)));
+
+Floats load(const float* at) {
+  Floats r;
+  std::memcpy(&r, at, sizeof r);
+  return r;
+}
+
+/// Grains side by side, in float; room to read a whole register beyond the last.
+struct Candidates {
+  std::vector<float> x, y, z, reach;   // [m]
+  std::vector<std::uint32_t> id;
+  std::size_t count = 0;
+
+  void resize(std::size_t n) {
+    count = n;
+    if (n + lanes <= id.size()) return;
+    x.resize(n + lanes), y.resize(n + lanes), z.resize(n + lanes), reach.resize(n + lanes), id.resize(n + lanes);
+  }
+  /// Appends those of another from `first` to `last`.
+  void append(const Candidates& other, std::size_t first, std::size_t last) {
+    const std::size_t at = count, many = last - first;
+    resize(at + many);
+    for (const auto array : {&Candidates::x, &Candidates::y, &Candidates::z, &Candidates::reach})
+      std::memcpy((this->*array).data() + at, (other.*array).data() + first, many * sizeof(float));
+    std::memcpy(id.data() + at, other.id.data() + first, many * sizeof(std::uint32_t));
+  }
+};
+
+/// Cells over the box not smaller than the longest reach of a pair, and the grains of each in order of id; cells along z
+/// lie one after the other.
 class CellGrid {
  public:
-  CellGrid(const PeriodicBox& box, std::span<const Vec3> position, double edge) : box_(box) {
-    choose_counts(edge, position.size());
-    cell_of_.resize(position.size());
-    start_.assign(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2] + 1, 0);
-    for (std::size_t i = 0; i < position.size(); ++i) {
-      cell_of_[i] = index(place(position[i]));
-      ++start_[cell_of_[i] + 1];
-    }
+  CellGrid(const PeriodicBox& box, std::span<const Vec3> position, std::span<const double> reach) : box_(box) {
+    choose_counts(2 * *std::ranges::max_element(reach), position.size());
+    std::vector<std::uint32_t> cell(position.size());
+    start_.assign(cells() + 1, 0);
+    for (std::size_t i = 0; i < position.size(); ++i) ++start_[(cell[i] = cell_at(position[i])) + 1];
     for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
     std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
     grains_.resize(position.size());
-    for (std::size_t i = 0; i < position.size(); ++i) grains_[next[cell_of_[i]]++] = static_cast<std::uint32_t>(i);
+    for (std::uint32_t i = 0; i < position.size(); ++i) {
+      const std::uint32_t at = next[cell[i]]++;
+      grains_.x[at] = static_cast<float>(position[i].x), grains_.y[at] = static_cast<float>(position[i].y);
+      grains_.z[at] = static_cast<float>(position[i].z), grains_.reach[at] = static_cast<float>(reach[i]);
+      grains_.id[at] = i;
+    }
   }
 
-  /// Visits every grain in the cells around that of `centre`, each once.
-  template <class Visit>
-  void around(Vec3 centre, Visit&& visit) const {
-    const std::array<int, 3> middle = place(centre);
-    std::array<std::array<int, 3>, 3> near{};
-    std::array<int, 3> many{};
-    for (int c = 0; c < 3; ++c) many[c] = neighbours(middle[c], c, near[c]);
-    for (int a = 0; a < many[0]; ++a)
-      for (int b = 0; b < many[1]; ++b)
-        for (int e = 0; e < many[2]; ++e) {
-          const std::size_t cell = index({near[0][a], near[1][b], near[2][e]});
-          for (std::uint32_t k = start_[cell]; k < start_[cell + 1]; ++k) visit(grains_[k]);
+  std::size_t cells() const { return static_cast<std::size_t>(count_[0]) * count_[1] * count_[2]; }
+  std::span<const std::uint32_t> grains_of(std::size_t cell) const {
+    return std::span(grains_.id).subspan(start_[cell], start_[cell + 1] - start_[cell]);
+  }
+
+  /// All grains in the cell and those around it.
+  void gather_around(std::size_t cell, Candidates& near) const {
+    near.resize(0);
+    const int z = static_cast<int>(cell) % count_[2], row = static_cast<int>(cell) / count_[2];
+    std::array<int, 3> xs{}, ys{}, zs{};
+    const int many_x = neighbours(row / count_[1], 0, xs), many_y = neighbours(row % count_[1], 1, ys);
+    const int many_z = neighbours(z, 2, zs);
+    for (int a = 0; a < many_x; ++a)
+      for (int b = 0; b < many_y; ++b) {
+        const std::size_t column = (static_cast<std::size_t>(xs[a]) * count_[1] + ys[b]) * count_[2];
+        for (int c = 0; c < many_z;) {   // cells one after the other at once
+          int last = c + 1;
+          while (last < many_z && zs[last] == zs[last - 1] + 1) ++last;
+          near.append(grains_, start_[column + zs[c]], start_[column + zs[last - 1] + 1]);
+          c = last;
         }
+      }
   }
 
  private:
@@ -55,38 +102,81 @@ class CellGrid {
     for (int c = 0; c < 3; ++c) {
       count_[c] = static_cast<int>(std::max(1.0, std::floor(box_.length[c] / edge)));
       if (box_.periodic(c) && count_[c] < 3) count_[c] = 1;   // left and right neighbour would be the same cell
+      per_length_[c] = count_[c] / box_.length[c];
     }
   }
 
-  std::array<int, 3> place(Vec3 position) const {
-    std::array<int, 3> cell{};
+  std::uint32_t cell_at(Vec3 position) const {
+    std::uint32_t cell = 0;
     const Vec3 inside = box_.wrapped(position);
     for (int c = 0; c < 3; ++c) {
-      const double t = inside[c] / box_.length[c] * count_[c];
-      cell[c] = t > 0 ? static_cast<int>(std::min(t, count_[c] - 1.0)) : 0;   // not a number: 0
+      const double t = inside[c] * per_length_[c];
+      cell = cell * static_cast<std::uint32_t>(count_[c]) +
+             (t > 0 ? static_cast<std::uint32_t>(std::min(t, count_[c] - 1.0)) : 0);   // not a number: 0
     }
     return cell;
   }
 
   int neighbours(int middle, int c, std::array<int, 3>& near) const {
+    if (count_[c] == 1) return near[0] = 0, 1;
     int many = 0;
-    for (int step = -1; step <= 1; ++step) {
-      if (count_[c] == 1 && step != 0) continue;
-      const int cell = middle + step;
-      if (box_.periodic(c)) near[many++] = (cell + count_[c]) % count_[c];
-      else if (cell >= 0 && cell < count_[c]) near[many++] = cell;
+    for (int cell = middle - 1; cell <= middle + 1; ++cell) {
+      if (cell >= 0 && cell < count_[c]) near[many++] = cell;
+      else if (box_.periodic(c)) near[many++] = cell < 0 ? cell + count_[c] : cell - count_[c];
     }
     return many;
   }
 
-  std::size_t index(std::array<int, 3> cell) const {
-    return (static_cast<std::size_t>(cell[0]) * count_[1] + cell[1]) * count_[2] + cell[2];
-  }
-
   const PeriodicBox& box_;
   std::array<int, 3> count_{};
-  std::vector<std::size_t> cell_of_;
-  std::vector<std::uint32_t> start_, grains_;
+  std::array<double, 3> per_length_{};
+  std::vector<std::uint32_t> start_;
+  Candidates grains_;
+};
+
+/// Finds those that may be near, a register at a time and in float: a bit more than the reach, so that rounding loses none.
+class NearTest {
+ public:
+  explicit NearTest(const PeriodicBox& box) {
+    for (int c = 0; c < 3; ++c) {
+      length_[c] = static_cast<float>(box.length[c]), inverse_[c] = static_cast<float>(box.inverse[c]);
+      rounding_ = std::max(rounding_, 8 * std::numeric_limits<float>::epsilon() * length_[c]);
+    }
+  }
+
+  /// Visits the ids of candidates that may be within reach of a grain.
+  template <class Visit>
+  void operator()(const Candidates& all, Vec3 centre, double reach, Visit&& visit) const {
+    const float x = static_cast<float>(centre.x), y = static_cast<float>(centre.y), z = static_cast<float>(centre.z);
+    const float own = static_cast<float>(reach) + rounding_;
+    constexpr std::size_t at_once = 64;   // bits
+    for (std::size_t first = 0; first < all.count; first += at_once) {
+      const std::size_t last = std::min(all.count, first + at_once);
+      std::uint64_t hits = 0;
+      for (std::size_t at = first; at < last; at += lanes) {
+        const Floats dx = shortest(load(&all.x[at]) - x, 0), dy = shortest(load(&all.y[at]) - y, 1);
+        const Floats dz = shortest(load(&all.z[at]) - z, 2), sum = load(&all.reach[at]) + own;
+        const auto near = dx * dx + dy * dy + dz * dz < sum * sum;
+        hits |= static_cast<std::uint64_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(near))) << (at - first);
+      }
+      if (last - first < at_once) hits &= (std::uint64_t{1} << (last - first)) - 1;
+      for (; hits; hits &= hits - 1) visit(all.id[first + static_cast<std::size_t>(std::countr_zero(hits))]);
+    }
+  }
+
+ private:
+  Floats shortest(Floats d, int c) const {
+    if (inverse_[c] == 0) return d;
+    constexpr float rounds = 0x1.8p23f;   // adding and taking away rounds
+    return d - length_[c] * ((d * inverse_[c] + rounds) - rounds);
+  }
+
+  float length_[3], inverse_[3], rounding_ = 0;
+};
+
+/// Partners of one grain: a stretch of a list.
+struct Partners {
+  std::uint32_t first = 0, count = 0;
 };
 
 }   // namespace
@@ -96,18 +186,32 @@ void find_near_pairs(const PeriodicBox& box, std::span<const Vec3> position, std
   pairs.lower.clear();
   pairs.higher.clear();
   if (position.empty()) return;
-  const CellGrid cells(box, position, 2 * *std::max_element(reach.begin(), reach.end()));
-  std::vector<std::uint32_t> partners;
+  const CellGrid cells(box, position, reach);
+  const NearTest may_be_near(box);
+  Candidates around;
+  std::vector<std::uint32_t> found;   // by cells
+  std::vector<Partners> partners_of(position.size());
+  found.reserve(8 * position.size());
+  for (std::size_t cell = 0; cell < cells.cells(); ++cell) {
+    const auto own = cells.grains_of(cell);
+    if (own.empty()) continue;
+    cells.gather_around(cell, around);
+    for (const std::uint32_t i : own) {
+      const std::size_t first = found.size();
+      may_be_near(around, position[i], reach[i], [&](std::uint32_t j) {
+        if (j <= i || (!fixed.empty() && fixed[i] && fixed[j])) return;
+        const double sum = reach[i] + reach[j];
+        if (norm2(box.shortest(position[j] - position[i])) < sum * sum) found.push_back(j);
+      });
+      std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end());
+      partners_of[i] = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(found.size() - first)};
+    }
+  }
+  pairs.lower.reserve(found.size()), pairs.higher.reserve(found.size());
   for (std::uint32_t i = 0; i < position.size(); ++i) {
-    partners.clear();
-    cells.around(position[i], [&](std::uint32_t j) {
-      if (j <= i || (!fixed.empty() && fixed[i] && fixed[j])) return;
-      const double sum = reach[i] + reach[j];
-      if (norm2(box.shortest(position[j] - position[i])) < sum * sum) partners.push_back(j);
-    });
-    std::sort(partners.begin(), partners.end());
-    pairs.lower.insert(pairs.lower.end(), partners.size(), i);
-    pairs.higher.insert(pairs.higher.end(), partners.begin(), partners.end());
+    const auto first = found.begin() + partners_of[i].first;
+    pairs.lower.insert(pairs.lower.end(), partners_of[i].count, i);
+    pairs.higher.insert(pairs.higher.end(), first, first + partners_of[i].count);
   }
 }
 

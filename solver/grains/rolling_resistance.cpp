@@ -24,21 +24,24 @@ double RollingResistance::energy(const HertzMindlin& law, const Overlap& o, Vec3
 
 namespace {
 
-void add_pair_torques(const RollingResistance& resistance, const HertzMindlin& law, std::span<const Body> bodies,
-                      double dt, const PeriodicBox& box, PairContacts& pairs, std::span<Load> loads) noexcept {
+void add_pair_torques(const RollingResistance& resistance, const HertzMindlin& law, const Bodies& bodies, double dt,
+                      NeighbourList& list, std::span<Load> loads) noexcept {
+  PairContacts& pairs = list.pairs;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     Vec3& spring = pairs.rolling[k];
-    if (!(pairs.depth[k] > 0)) {
+    if (!(pairs.depth(k) > 0)) {
       spring = {};
       continue;
     }
     const auto i = pairs.ids.lower[k], j = pairs.ids.higher[k];
-    const Vec3 apart = box.shortest(bodies[j].position - bodies[i].position);
+    const Vec3 apart = list.box().shortest(bodies.spheres[j].position - bodies.spheres[i].position);
     const Vec3 normal = apart * (1 / norm(apart));
-    const Overlap o{pairs.depth[k], pairs.root_radius[k], pairs.mass[k], normal,
-                    bodies[i].velocity - bodies[j].velocity};   // of its velocity only the normal part is read
-    const Damping damped = pairs.damping.empty() ? law.damping() : law.damping(pairs.damping[k]);
-    const RollingTorque r = resistance.respond(law, damped, o, bodies[i].spin - bodies[j].spin, spring, dt);
+    const Overlap o{
+        pairs.depth(k), pairs.root_radius(k), pairs.mass(k), normal,
+        bodies.motions[i].velocity - bodies.motions[j].velocity};   // of its velocity only the normal part is read
+    const Damping damped = list.wet() ? law.damping(pairs.damping(k)) : law.damping();
+    const RollingTorque r =
+        resistance.respond(law, damped, o, bodies.motions[i].spin - bodies.motions[j].spin, spring, dt);
     spring = r.spring;
     loads[i].torque += r.torque;
     loads[j].torque -= r.torque;
@@ -47,16 +50,16 @@ void add_pair_torques(const RollingResistance& resistance, const HertzMindlin& l
 
 }   // namespace
 
-void add_rolling_torques(const RollingResistance& resistance, const HertzMindlin& law, std::span<const Body> bodies,
-                         double dt, NeighbourList& list, std::span<Load> loads) noexcept {
-  add_pair_torques(resistance, law, bodies, dt, list.box(), list.pairs, loads);
+void add_rolling_torques(const RollingResistance& resistance, const HertzMindlin& law, const Bodies& bodies, double dt,
+                         NeighbourList& list, std::span<Load> loads) noexcept {
+  add_pair_torques(resistance, law, bodies, dt, list, loads);
   for (WallContact& c : list.wall_contacts) {
     const FlatWall& wall = list.walls()[c.wall];
     if (!wall.rough) continue;
-    const Body& body = bodies[c.grain];
-    const Overlap o{c.depth, c.root_radius, c.mass, wall.normal(), body.velocity};
+    const Motion& motion = bodies.motions[c.grain];
+    const Overlap o{c.depth, c.root_radius, c.mass, wall.normal(), motion.velocity};
     const RollingTorque r =
-        resistance.respond(law, c.damping < 0 ? law.damping() : law.damping(c.damping), o, body.spin, c.rolling, dt);
+        resistance.respond(law, c.damping < 0 ? law.damping() : law.damping(c.damping), o, motion.spin, c.rolling, dt);
     c.rolling = r.spring;
     loads[c.grain].torque += r.torque;
   }

@@ -31,7 +31,7 @@ class RollingResistance {
 
 /// Adds the rolling torques of all contacts to `loads`, and renews their rolling springs. Depths and dampings are those
 /// of the contact pass of the same step. Frictionless walls do not resist.
-void add_rolling_torques(const RollingResistance&, const HertzMindlin&, std::span<const Body>, double dt,
-                         NeighbourList&, std::span<Load> loads) noexcept;
+void add_rolling_torques(const RollingResistance&, const HertzMindlin&, const Bodies&, double dt, NeighbourList&,
+                         std::span<Load> loads) noexcept;
 
 }   // namespace bedload

@@ -39,22 +39,21 @@ WetRestitution::WetRestitution(const FluidProperties& fluid, double dry_restitut
   table_.push_back(damping_of_restitution(restitution));   // no liquid, no change
   while ((restitution *= ratio) > lowest) table_.push_back(ascent.damping_of(restitution));
   table_.push_back(damping_of_restitution(lowest));
-  cells_ = static_cast<double>(table_.size() - 1);
 }
 
 /// Of the grain and half the liquid that it displaces [1/kg]; the mass of the solid follows from its inertia.
-double WetRestitution::inverse_mass(const Body& body) const noexcept {
-  if (body.inverse_mass == 0) return 0;
+double WetRestitution::inverse_mass(SolidSphere body) const noexcept {
+  if (body.inverse_inertia == 0) return 0;
   const double d = 2 * body.radius, mass = 1 / (body.inverse_inertia * sphere_inertia(1, d));
   return 1 / (mass + 0.5 * fluid_density_ * sphere_volume(d));
 }
 
-double WetRestitution::viscous_speed(const Body& a, const Body& b) const noexcept {
+double WetRestitution::viscous_speed(SolidSphere a, SolidSphere b) const noexcept {
   const double radius = a.radius * b.radius / (a.radius + b.radius);
   return decay * 6 * std::numbers::pi * viscosity_ * radius * radius * (inverse_mass(a) + inverse_mass(b));
 }
 
-double WetRestitution::viscous_speed_at_wall(const Body& body) const noexcept {
+double WetRestitution::viscous_speed_at_wall(SolidSphere body) const noexcept {
   return decay * 6 * std::numbers::pi * viscosity_ * body.radius * body.radius * inverse_mass(body);
 }
 

@@ -112,7 +112,8 @@ TEST(GrainDynamics, ConserveAngularMomentumAmongUnequalSpinningGrains) {
   std::uint64_t met = 0;
   for (int n = 0; n < 100; ++n) met += coast(dynamics, grains, contacts, scene.dem_step, 10).contacts;
   EXPECT_GT(met, 1u);
-  EXPECT_LE(norm(angular_momentum(grains) - before), 1e-11 * norm(before));
+  // Lever arms and torques are rounded to float, forces act on both grains alike.
+  EXPECT_LE(norm(angular_momentum(grains) - before), 0x1p-24 * norm(before));
 }
 
 TEST(GrainDynamics, NeverMoveAFixedGrain) {

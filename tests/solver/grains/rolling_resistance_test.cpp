@@ -152,7 +152,7 @@ TEST(RollingResistance, ConservesMomentumAndAngularMomentum) {
   EXPECT_TRUE(rolled);
   EXPECT_LT(kinetic_energy(grains), energy);
   EXPECT_LE(norm(momentum(grains) - before), 1e-13 * norm(before));
-  EXPECT_LE(norm(angular_momentum(grains) - turning), 1e-11 * norm(turning));
+  EXPECT_LE(norm(angular_momentum(grains) - turning), 0x1p-24 * norm(turning));   // torques of contacts are float
 }
 
 }   // namespace

@@ -57,23 +57,22 @@ TEST(WetRestitution, FallsToTheLowestAndNoFurther) {
     }
 }
 
-Body body_of(double diameter, double density) {
-  const double mass = density * sphere_volume(diameter);
-  return {{}, diameter / 2, {}, 1 / (mass * 1.2), {}, 1 / sphere_inertia(mass, diameter)};   // with some added mass
+SolidSphere sphere_of(double diameter, double density) {
+  return {diameter / 2, 1 / sphere_inertia(density * sphere_volume(diameter), diameter)};
 }
 
-// St = m* U/(6 pi mu R*^2) is 35 at the viscous speed, whatever added mass the motion is given.
+// St = m* U/(6 pi mu R*^2) is 35 at the viscous speed.
 TEST(WetRestitution, CountsReducedMassAndRadiusOfUnlikeGrains) {
   const WetRestitution law({1000, 1e-6}, 0.9);
   const double d1 = 1e-3, d2 = 3e-3, rho1 = 2500, rho2 = 8000, r = d1 * d2 / (d1 + d2) / 2;
   const double m1 = (rho1 + 500) * sphere_volume(d1), m2 = (rho2 + 500) * sphere_volume(d2);
   const double drag = 35 * 6 * pi * 1e-3 * r * r;
-  EXPECT_NEAR(law.viscous_speed(body_of(d1, rho1), body_of(d2, rho2)) / (drag * (m1 + m2) / (m1 * m2)), 1, 1e-12);
-  Body fixed = body_of(d2, rho2);
-  fixed.inverse_mass = fixed.inverse_inertia = 0;
-  EXPECT_NEAR(law.viscous_speed(body_of(d1, rho1), fixed) / (drag / m1), 1, 1e-12);
+  EXPECT_NEAR(law.viscous_speed(sphere_of(d1, rho1), sphere_of(d2, rho2)) / (drag * (m1 + m2) / (m1 * m2)), 1, 1e-12);
+  SolidSphere fixed = sphere_of(d2, rho2);
+  fixed.inverse_inertia = 0;
+  EXPECT_NEAR(law.viscous_speed(sphere_of(d1, rho1), fixed) / (drag / m1), 1, 1e-12);
   // A wall: (rho_p + rho_f/2) d U/(9 mu) = 35.
-  EXPECT_NEAR(law.viscous_speed_at_wall(body_of(d1, rho1)) * (rho1 + 500) * d1 / (9 * 1e-3), 35, 1e-9);
+  EXPECT_NEAR(law.viscous_speed_at_wall(sphere_of(d1, rho1)) * (rho1 + 500) * d1 / (9 * 1e-3), 35, 1e-9);
 }
 
 TEST(WetRestitution, TabulatesTheDampingOfEveryRestitution) {
