@@ -60,7 +60,12 @@ struct Sums {
 
 struct ConservationBooks::Parts {
   explicit Parts(const Scene& given)
-      : scene(given), grid(given.grid), smoothing(given.grid, given.smoothing), springs(given.bed), eps(grid) {}
+      : scene(given),
+        grid(given.grid),
+        smoothing(given.grid, given.smoothing),
+        springs(given.bed),
+        eps(grid),
+        woven(grid) {}
 
   Sums sums_of(const State&);
   double of_added_mass(const State&);
@@ -76,9 +81,11 @@ struct ConservationBooks::Parts {
   const StaggeredGrid grid;
   const KernelSmoothing smoothing;
   const ContactEnergy springs;
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   VoidFraction eps;
-  FaceFields flow, seen_flow;
+  FaceFields seen_flow;
+  Woven woven;
+  std::vector<Vec3> flow;
   Field<Centre> seen_eps;
   std::vector<double> void_fraction, added;
   GrainPacking packing;
@@ -148,17 +155,17 @@ Sums ConservationBooks::Parts::sums_of(const State& state) {
 double ConservationBooks::Parts::of_added_mass(const State& state) {
   const Grains& grains = state.grains;
   const Strides stride(grid);
-  flow = state.fluid.velocity;
-  const FaceFields& read = smoothing.seen(grid, flow, seen_flow);
-  const Field<Centre>& packed = smoothing.seen(grid, eps.centre, seen_eps);
-  void_fraction.resize(grains.size());
-  for (std::size_t p = 0; p < grains.size(); ++p)
-    void_fraction[p] = sample<on_cells>(stencils[p], stride, packed.data());
+  const Field<Centre>& packed = smoothing.seen(eps.centre, seen_eps);
+  woven.read(stencils.reach, smoothing.seen(state.fluid.velocity, seen_flow), &packed);
+  void_fraction.resize(grains.size()), flow.resize(grains.size());
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const Quad read = sample(Weights(stencils[p]), stride, woven.at(stencils[p]));
+    flow[p] = on_faces(read), void_fraction[p] = in_cell(read);
+  }
   find_packing(grid, grains, packed, void_fraction, packing, smoothing);
   find_added_mass(grains, void_fraction, packing, scene.terms.model_b(), added);
   double sum = 0;
-  for (std::size_t p = 0; p < grains.size(); ++p)
-    sum += added[p] / 2 * norm2(sample(stencils[p], stride, read) - grains.velocity[p]);
+  for (std::size_t p = 0; p < grains.size(); ++p) sum += added[p] / 2 * norm2(flow[p] - grains.velocity[p]);
   return scene.bed.fluid.density * sum;
 }
 

@@ -19,14 +19,16 @@ Coupler::Parts::Parts(const Scene& given)
       impulse(grid),
       flux(grid),
       solid_flux(grid),
+      woven(grid),
+      woven_too(grid),
       response(grid),
       rhs(grid),
       correction(grid),
       kick(grid) {
   if (scene.terms.turbulence) turbulence.emplace(grid, scene.bed.fluid.viscosity);
-  if (scene.terms.added_mass || explicit_forces()) added_exchange = reaction = FaceFields(grid);
+  if (scene.terms.added_mass || explicit_forces()) added_exchange = reaction = Deposited(grid);
   if (scene.terms.viscous_torque) spin_exchange.emplace(grid);
-  if (wants_vorticity()) vorticity = vorticity_change = FaceFields(grid);
+  if (wants_vorticity()) vorticity = vorticity_change = FaceFields(grid), woven_edges = Woven(grid, On::edges);
 }
 
 Coupler::Coupler(const Scene& scene) : parts_(std::make_unique<Parts>(scene)) {}
@@ -37,7 +39,7 @@ std::span<const Vec3> Coupler::torque_on_grains() const { return parts_->torque;
 const StepTimes& Coupler::times() const { return parts_->times; }
 void Coupler::forget() {
   const StepTimes spent = parts_->times;
-  auto tables = std::move(parts_->flow.self_disturbance);   // of the grid alone, and half a second to make
+  auto tables = std::move(parts_->flow.self_disturbance);   // of the grid alone
   parts_ = std::make_unique<Parts>(parts_->scene);
   parts_->times = spent;
   parts_->flow.self_disturbance = std::move(tables);

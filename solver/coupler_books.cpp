@@ -69,9 +69,9 @@ void Coupler::Parts::book_torques(const Grains& grains, double dt) {
     double* w = vorticity.component(t);
     for (std::size_t n = 0; n < vorticity.x.values.size(); ++n) w[n] += vorticity_change.component(t)[n];
   }
-  const FaceFields& turning = smoothing.edges_seen(grid, vorticity, seen);
+  woven_edges.read(stencils.reach, smoothing.edges_seen(vorticity, seen));
   for (std::size_t p = 0; p < grains.size(); ++p) {
-    const Vec3 turn = 0.5 * sample_edges(stencils[p], Strides(grid), turning);
+    const Vec3 turn = 0.5 * turning_at(p);
     torque[p] = scaled(rho * spin_strength[p] / dt, turn - spin_target[p]);
     Vec3 slip = turn - spin_start[p];
     if (!grains.fixed[p]) {

@@ -89,24 +89,25 @@ void Coupler::Parts::find_impulse(const State& state, double dt) {
 void Coupler::Parts::react_on_fluid(const State& state, double dt) {
   const Strides stride(grid);
   const double per_cell = 1 / grid.cell_volume();
-  clear(reaction), clear(added_exchange);
+  const bool added_mass = scene.terms.added_mass;
+  woven.clear(stencils.reach), woven_too.clear(stencils.reach);
   for (std::size_t p = 0; p < state.grains.size(); ++p) {
+    const Weights weights(stencils[p]);
     Vec3 given;
     if (explicit_forces()) given += dt * flow.force[p];
-    if (scene.terms.added_mass) {
-      const double share = added_volume[p] * per_cell;
-      deposit(stencils[p], stride, {share, share, share}, added_exchange);
+    if (added_mass) {
+      deposit(weights, stride, quad(added_volume[p] * per_cell), woven_too.at(stencils[p]));
       if (!state.grains.fixed[p]) given += added_volume[p] * state.grains.velocity[p];
     }
-    deposit(stencils[p], stride, -per_cell * given, reaction);
+    deposit(weights, stride, quad(-per_cell * given), woven.at(stencils[p]));
   }
-  fold_deposits(grid, reaction), fold_deposits(grid, added_exchange);
-  smoothing.spread(reaction), smoothing.spread(added_exchange);
+  woven.settle(reaction), smoothing.spread(reaction);
+  if (added_mass) woven_too.settle(added_exchange), smoothing.spread(added_exchange);
   for (int c = 0; c < 3; ++c) {
     double* b = impulse.component(c);
     const double *r = reaction.component(c), *added = added_exchange.component(c),
                  *u = state.fluid.velocity.component(c);
-    for_each_unknown_face(grid, c, [&](std::size_t n) { b[n] += r[n] + added[n] * u[n]; });
+    for_each_face_within(grid, c, reaction.reach, [&](std::size_t n) { b[n] += r[n] + added[n] * u[n]; });
   }
 }
 
@@ -114,16 +115,17 @@ void Coupler::Parts::react_on_fluid(const State& state, double dt) {
 /// A = sum w m_a/V_c as in the drag solve, and does not where a wall holds it; of the direction in which most does. With the
 /// whole of m_a, in a bed several times the liquid there is, liquid would overtake the grains that push it.
 void Coupler::Parts::find_carried_mass(const Grains& grains) {
-  FaceFields& along = added_exchange;
+  Deposited& along = added_exchange;
   for (int c = 0; c < 3; ++c)
-    for_each_unknown_face(
-        grid, c, [a = along.component(c), eps = before.face.component(c)](std::size_t n) { a[n] /= eps[n] + a[n]; });
+    for_each_face_within(grid, c, along.reach, [a = along.component(c), eps = before.face.component(c)](std::size_t n) {
+      a[n] /= eps[n] + a[n];
+    });
   clear_walls(grid, along);
-  const FaceFields& read = smoothing.seen(grid, along, seen);
+  woven.read(stencils.reach, smoothing.seen<FaceFields>(along, seen));
   const Strides stride(grid);
   carried_mass.resize(grains.size());
   for (std::size_t p = 0; p < grains.size(); ++p) {
-    const Vec3 part = sample(stencils[p], stride, read);
+    const Vec3 part = on_faces(sample(Weights(stencils[p]), stride, woven.at(stencils[p])));
     carried_mass[p] = scene.bed.fluid.density * added_volume[p] * (1 - std::max({part.x, part.y, part.z}));
   }
 }

@@ -39,13 +39,14 @@ void Coupler::Parts::deposit_at_new_positions(const State& state, double dt) {
   Stopwatch watch(times.deposit);
   if (failed()) return;
   const Grains& grains = state.grains;
-  deposit_swept_flux(grid, grains, positions, moved, dt, solid_flux, smoothing);
+  const Reach former = stencils.reach;
+  find_stencils(grid, grains, stencils);
+  deposit_swept_flux(grid, grains, positions, moved, united(former, stencils.reach), dt, solid_flux, smoothing);
   for (int c = 0; c < 3; ++c)
-    for_each_unknown_face(grid, c,
-                          [f = flux.component(c), j = solid_flux.component(c)](std::size_t n) { f[n] -= j[n]; });
+    for_each_face_within(grid, c, solid_flux.reach,
+                         [f = flux.component(c), j = solid_flux.component(c)](std::size_t n) { f[n] -= j[n]; });
   fill_face_ghosts(grid, flux);
 
-  find_stencils(grid, grains, stencils);
   deposit_void_fraction(grid, grains, stencils, after, smoothing);
   fill_face_ghosts(grid, after.face);
   deposit_solid_flux(grid, grains, stencils, solid_flux, smoothing);
@@ -69,21 +70,20 @@ void Coupler::Parts::carry_liquid(State& state, double dt) {
   const Grains& grains = state.grains;
   const Strides stride(grid);
   const double rho = scene.bed.fluid.density;
-  clear(reaction);
+  woven.clear(stencils.reach);
   for (std::size_t p = 0; p < grains.size(); ++p) {
     if (grains.fixed[p]) continue;
     const double part = carried_mass[p] / (rho * specific_mass(grains, p) + carried_mass[p]);
     const Vec3 on_liquid = part * (grains.mean_contact_force[p] - contact_before[p]);
-    deposit(stencils[p], stride, dt / (rho * grid.cell_volume()) * on_liquid, reaction);
+    deposit(Weights(stencils[p]), stride, quad(dt / (rho * grid.cell_volume()) * on_liquid), woven.at(stencils[p]));
     books.on_grains -= on_liquid;
   }
-  fold_deposits(grid, reaction);
-  smoothing.spread(reaction);
+  woven.settle(reaction), smoothing.spread(reaction);
   for (int c = 0; c < 3; ++c) {
     double* u = state.fluid.velocity.component(c);
-    for_each_unknown_face(grid, c, [&, r = reaction.component(c), eps = before.face.component(c)](std::size_t n) {
-      u[n] += r[n] / eps[n];
-    });
+    for_each_face_within(
+        grid, c, reaction.reach,
+        [&, r = reaction.component(c), eps = before.face.component(c)](std::size_t n) { u[n] += r[n] / eps[n]; });
   }
 }
 

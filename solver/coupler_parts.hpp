@@ -50,9 +50,11 @@ struct Coupler::Parts {
   // Scratch; `stencils` and `before` belong to `positions` and are kept when the state still has them.
   std::vector<Vec3> positions;
   std::vector<double> diameters;
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   VoidFraction before, after;
-  FaceFields acceleration, laplace, impulse, flux, solid_flux;
+  FaceFields acceleration, laplace, impulse, flux;
+  SolidFlux solid_flux;
+  Woven woven, woven_too;
   MixtureResponse response;
   Field<Centre> rhs, correction;
   FaceFields kick, carried, shared;
@@ -64,10 +66,11 @@ struct Coupler::Parts {
   // Only where the terms need them.
   std::vector<double> added_volume, carried_mass;   // C_A V_p [m3]; the liquid that a contact force moves too [kg]
   std::vector<Vec3> contact_before;                 // mean contact force that the drag solve has met [N]
-  FaceFields added_exchange, reaction;
+  Deposited added_exchange, reaction;
   std::optional<SpinExchange> spin_exchange;
   FaceFields vorticity, vorticity_change;   // on edges [1/s]
-  std::vector<Vec3> spin_strength;          // T c' [m5]
+  Woven woven_edges;
+  std::vector<Vec3> spin_strength;   // T c' [m5]
   std::vector<Vec3> spin_start, spin_target, spin_push, torque;
 
   StepBooks books;
@@ -87,7 +90,8 @@ struct Coupler::Parts {
   void place_on_grid(const Grains&);
   void accelerate_faces(State&);
   void book_wall_shear(const FaceFields& velocity);
-  FaceFields& on_grains(FaceFields& acceleration);
+  const FaceFields& on_grains(const FaceFields& acceleration);
+  Vec3 turning_at(std::size_t grain) const;
   void sample_at_grains(State&);
   double choose_step(const State&, double longest);
   double courant_rate(const FaceFields& velocity) const;

@@ -34,13 +34,13 @@ void Coupler::Parts::project(State& state, double dt) {
   Stopwatch watch(times.pressure);
   if (failed()) return;
   for (int c = 0; c < 3; ++c) {
-    double* f = solid_flux.component(c);
-    const double *eps = before.face.component(c), *u = state.fluid.velocity.component(c);
-    for_each_unknown_face(grid, c, [&](std::size_t n) { f[n] = (f[n] + eps[n] * u[n]) / dt; });
+    double* f = flux.component(c);
+    const double *eps = before.face.component(c), *u = state.fluid.velocity.component(c), *j = solid_flux.component(c);
+    for_each_unknown_face(grid, c, [&](std::size_t n) { f[n] = (j[n] + eps[n] * u[n]) / dt; });
   }
-  fill_face_ghosts(grid, solid_flux);
+  fill_face_ghosts(grid, flux);
   fill_face_ghosts(grid, response.coefficient);
-  divergence(grid, solid_flux, rhs);
+  divergence(grid, flux, rhs);
   std::fill(correction.values.begin(), correction.values.end(), 0.0);
   const PressureSolve solve =
       pressure.solve(response.coefficient, rhs, correction, any_mobile(state.grains) ? pressure_tolerance : 0,
@@ -61,7 +61,7 @@ void Coupler::Parts::project(State& state, double dt) {
 void Coupler::Parts::hold_net_flux(State& state, double dt) {
   if (!grid.periodic(2) || (scene.bed.gravity.z == 0 && scene.drive.kind != FlowRamp::Kind::through_flow)) return;
   double* const gradient_z = kick.component(2);
-  const double *f = solid_flux.component(2), *both = response.coefficient.component(2);
+  const double *f = flux.component(2), *both = response.coefficient.component(2);
   const double asked = state.search.through_flow / dt;
   const double net = sum_over_faces(grid, 2, [=](std::size_t n) { return f[n] - both[n] * gradient_z[n] - asked; });
   const double uniform = net / sum_over_faces(grid, 2, [=](std::size_t n) { return both[n]; });
@@ -87,11 +87,11 @@ void Coupler::Parts::kick_mixture(State& state, double dt) {
   }
   books.on_grains += rho * grid.cell_volume() * on_fixed;
   if (health.substeps == 0) return;
-  const FaceFields& push_seen = smoothing.seen(grid, kick, seen);
+  woven.read(stencils.reach, smoothing.seen(kick, seen));
   const Strides stride(grid);
   for (std::size_t p = 0; p < state.grains.size(); ++p) {
     if (state.grains.fixed[p]) continue;
-    const Vec3 change = -sample(stencils[p], stride, push_seen);
+    const Vec3 change = -on_faces(sample(Weights(stencils[p]), stride, woven.at(stencils[p])));
     state.grains.velocity[p] += dt * change;
     books.on_grains += rho * specific_mass(state.grains, p) * change;
   }

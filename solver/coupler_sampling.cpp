@@ -28,7 +28,7 @@ void Coupler::Parts::accelerate_faces(State& state) {
   fill_centre_ghosts(grid, state.fluid.pressure);
   gradient(grid, state.fluid.pressure, acceleration);
   laplacian(grid, u, laplace);
-  deposit_solid_flux(grid, state.grains, stencils, flux, smoothing);
+  deposit_solid_flux(grid, state.grains, stencils, solid_flux, smoothing);
   const double nu = scene.bed.fluid.viscosity;
   for (int c = 0; c < 3; ++c) {
     double *a = acceleration.component(c), *f = flux.component(c);
@@ -36,8 +36,9 @@ void Coupler::Parts::accelerate_faces(State& state) {
     const double g = drive(state)[c];
     for_each_unknown_face(grid, c, [&](std::size_t n) {
       a[n] = -a[n] + nu * lap[n] + g;
-      f[n] += eps[n] * v[n];
+      f[n] = eps[n] * v[n];
     });
+    for_each_face_within(grid, c, solid_flux.reach, [&, j = solid_flux.component(c)](std::size_t n) { f[n] += j[n]; });
   }
   if (turbulence) {   // a bed is as rough as its grains are large
     const double z_b = state.search.bed_height;
@@ -69,11 +70,16 @@ void Coupler::Parts::book_wall_shear(const FaceFields& velocity) {
 }
 
 /// What grains see of an acceleration that fluid and grains share: on overfilled faces, the part that is left to them.
-FaceFields& Coupler::Parts::on_grains(FaceFields& all) {
+const FaceFields& Coupler::Parts::on_grains(const FaceFields& all) {
   if (before.overfilled.empty()) return all;
   shared = all;
   for (const OverfilledFace& f : before.overfilled) shared.component(f.direction)[f.face] *= f.grain_share;
   return shared;
+}
+
+/// The vorticity that woven_edges holds, at a grain.
+Vec3 Coupler::Parts::turning_at(std::size_t p) const {
+  return on_faces(sample(Weights<On::edges>(stencils[p]), Strides(grid), woven_edges.at(stencils[p])));
 }
 
 void Coupler::Parts::sample_at_grains(State& state) {
@@ -85,10 +91,9 @@ void Coupler::Parts::sample_at_grains(State& state) {
   health.disturbance_clamps = flow.disturbance_clamps;
   if (!wants_vorticity()) return;
   find_vorticity(grid, carried, vorticity);
-  const FaceFields& turning = smoothing.edges_seen(grid, vorticity, seen);
+  woven_edges.read(stencils.reach, smoothing.edges_seen(vorticity, seen));
   flow.vorticity.resize(stencils.size());
-  for (std::size_t p = 0; p < stencils.size(); ++p)
-    flow.vorticity[p] = sample_edges(stencils[p], Strides(grid), turning);
+  for (std::size_t p = 0; p < stencils.size(); ++p) flow.vorticity[p] = turning_at(p);
   add_explicit_forces({grid, PeriodicBox(scene.bed), scene.bed.fluid.viscosity, state.search.lid_speed}, state.grains,
                       scene.terms, sheltering, flow);
   health.lift_clamps = flow.lift_clamps;

@@ -24,7 +24,7 @@ class MixtureMomentum {
   StaggeredGrid grid_;
   KernelSmoothing smoothing_;
   double fluid_density_;
-  std::vector<Stencil> stencils_;
+  Stencils stencils_;
   VoidFraction void_fraction_;
 };
 

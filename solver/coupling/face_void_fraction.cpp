@@ -5,7 +5,7 @@
 namespace bedload {
 
 FaceFields face_void_fraction(const StaggeredGrid& grid, const Grains& grains, const Smoothing& widths) {
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(grid, grains, stencils);
   VoidFraction eps(grid);
   deposit_void_fraction(grid, grains, stencils, eps, KernelSmoothing(grid, widths));

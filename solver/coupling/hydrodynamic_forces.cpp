@@ -75,23 +75,26 @@ void evaluate_drag(const Law& law, const StaggeredGrid& grid, const Grains& grai
 
 }   // namespace
 
-void sample_flow(const StaggeredGrid& grid, const Grains& grains, std::span<const Stencil> stencils,
-                 FaceFields& velocity, FaceFields& acceleration, Field<Centre>& void_fraction, const DragLaw& law,
+void sample_flow(const StaggeredGrid& grid, const Grains& grains, const Stencils& stencils, const FaceFields& velocity,
+                 const FaceFields& acceleration, const Field<Centre>& void_fraction, const DragLaw& law,
                  double viscosity, const Terms& terms, FlowAtGrains& flow, const KernelSmoothing& smoothing) {
   const std::size_t n = grains.size();
   flow.velocity.resize(n), flow.acceleration.resize(n), flow.void_fraction.resize(n);
   flow.drag.assign(n, {}), flow.force.assign(n, {});
   flow.void_clamps = flow.disturbance_clamps = flow.lift_clamps = 0;
-  const FaceFields& u = smoothing.seen(grid, velocity, flow.seen.velocity);
-  const FaceFields& a = smoothing.seen(grid, acceleration, flow.seen.acceleration);
-  const Field<Centre>& eps = smoothing.seen(grid, void_fraction, flow.seen.void_fraction);
+  if (n == 0) return;
+  const Field<Centre>& eps = smoothing.seen(void_fraction, flow.seen.void_fraction);
+  if (!flow.woven.fits(grid)) flow.woven = flow.woven_too = Woven(grid);
+  flow.woven.read(stencils.reach, smoothing.seen(velocity, flow.seen.velocity), &eps);
+  flow.woven_too.read(stencils.reach, smoothing.seen(acceleration, flow.seen.acceleration));
   const Strides stride(grid);
   for (std::size_t p = 0; p < n; ++p) {
-    flow.velocity[p] = sample(stencils[p], stride, u);
-    flow.acceleration[p] = sample(stencils[p], stride, a);
-    flow.void_fraction[p] = sample<on_cells>(stencils[p], stride, eps.data());
+    const Weights weights(stencils[p]);
+    const Quad read = sample(weights, stride, flow.woven.at(stencils[p]));
+    flow.velocity[p] = on_faces(read), flow.void_fraction[p] = in_cell(read);
+    flow.acceleration[p] = on_faces(sample(weights, stride, flow.woven_too.at(stencils[p])));
   }
-  if (n > 0 && (terms.drag || terms.wall_forces || terms.added_mass))
+  if (terms.drag || terms.wall_forces || terms.added_mass)
     find_packing(grid, grains, eps, flow.void_fraction, flow.packing, smoothing);
   if (!terms.drag) return;
   if (terms.self_disturbance) flow.removed.assign(n, {});

@@ -29,6 +29,7 @@ struct FlowAtGrains {
     FaceFields velocity, acceleration;
     Field<Centre> void_fraction;
   } seen;                                 // what grains read of the fields; only with a smoothing
+  Woven woven, woven_too;                 // scratch
   std::uint64_t void_clamps = 0;          // grains whose void fraction lay below least_void
   std::uint64_t disturbance_clamps = 0;   // grains whose own flow was clamped at 0.7 of the slip
   std::uint64_t lift_clamps = 0;          // grains whose lift was clamped at half of the drag
@@ -36,9 +37,9 @@ struct FlowAtGrains {
 
 /// Samples the flow with each grain's own weights and evaluates f_d = 3 pi mu d F(eps, Re) eps w, Re = eps |w| d/nu.
 /// A lone grain does not see its own volume in eps, nor, where the scene has the term, its own flow in w
-/// (docs/physics_coupling.md, "Self-disturbance"). Of the fields only ghosts change.
-void sample_flow(const StaggeredGrid&, const Grains&, std::span<const Stencil>, FaceFields& velocity,
-                 FaceFields& acceleration, Field<Centre>& void_fraction, const DragLaw&, double viscosity, const Terms&,
-                 FlowAtGrains&, const KernelSmoothing& = {});
+/// (docs/physics_coupling.md, "Self-disturbance").
+void sample_flow(const StaggeredGrid&, const Grains&, const Stencils&, const FaceFields& velocity,
+                 const FaceFields& acceleration, const Field<Centre>& void_fraction, const DragLaw&, double viscosity,
+                 const Terms&, FlowAtGrains&, const KernelSmoothing& = {});
 
 }   // namespace bedload

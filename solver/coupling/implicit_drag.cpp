@@ -9,40 +9,60 @@
 namespace bedload {
 namespace {
 
-double inner(const StaggeredGrid& g, const FaceFields& a, const FaceFields& b) {
+/// Sum of value(c, padded index) over the unknown faces of a box: one partial sum per x-plane, added in plane order.
+template <class Value>
+double sum_within(const StaggeredGrid& g, const Reach& box, Value&& value) {
   double total = 0;
   for (int c = 0; c < 3; ++c)
-    total += sum_over_faces(g, c, [x = a.component(c), y = b.component(c)](std::size_t n) { return x[n] * y[n]; });
-  return total;
-}
-
-double inner_scaled(const StaggeredGrid& g, const FaceFields& a, const FaceFields& scale) {
-  double total = 0;
-  for (int c = 0; c < 3; ++c)
-    total += sum_over_faces(g, c,
-                            [x = a.component(c), d = scale.component(c)](std::size_t n) { return x[n] * x[n] / d[n]; });
+    for (Reach plane = box; plane.first[0] < box.last[0]; ++plane.first[0]) {
+      plane.last[0] = plane.first[0] + 1;
+      double sum = 0;
+      for_each_face_within(g, c, plane, [&](std::size_t n) { sum += value(c, n); });
+      total += sum;
+    }
   return total;
 }
 
 }   // namespace
 
 ImplicitDrag::ImplicitDrag(const StaggeredGrid& g)
-    : exchange_(g), diagonal_(g), residual_(g), direction_(g), image_(g), change_(g), laplacian_(g) {}
+    : exchange_(g),
+      residual_(g),
+      image_(g),
+      direction_(g),
+      change_(g),
+      diagonal_(g),
+      laplacian_(g),
+      woven_(g),
+      woven_too_(g) {}
 
 /// Fills B, the diagonal and the first residual (that of u* = u^n); returns the stiffness b_max.
 double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction,
                            const FaceFields& impulse, const FaceFields& velocity) {
-  clear(exchange_), clear(residual_);
+  const Stencils& stencils = problem.stencils;
   const Strides stride(g);
-  for (std::size_t p = 0; p < problem.stencils.size(); ++p) {
+  woven_.clear(stencils.reach), woven_too_.clear(stencils.reach);
+  for (std::size_t p = 0; p < stencils.size(); ++p) {
     const Vec3 k = problem.exchange[p], a = problem.relaxation[p];
-    deposit(problem.stencils[p], stride, k, exchange_);
     const Vec3 followed = scaled(a, problem.flow_velocity[p]) + problem.ballistic[p];
-    deposit(problem.stencils[p], stride,
-            {k.x / (1 + a.x) * followed.x, k.y / (1 + a.y) * followed.y, k.z / (1 + a.z) * followed.z}, residual_);
+    const Weights weights(stencils[p]);
+    deposit(weights, stride, quad(k), woven_.at(stencils[p]));
+    deposit(weights, stride,
+            quad({k.x / (1 + a.x) * followed.x, k.y / (1 + a.y) * followed.y, k.z / (1 + a.z) * followed.z}),
+            woven_too_.at(stencils[p]));
   }
-  if (!problem.stencils.empty()) fold_deposits(g, exchange_), fold_deposits(g, residual_);
+  woven_.settle(exchange_), woven_too_.settle(residual_);
   problem.smoothing.spread(exchange_), problem.smoothing.spread(residual_);
+  for (Deposited* f : {&change_, &direction_}) {
+    for_each_row(g, f->reach, [&](std::size_t row, int length) {
+      for (int c = 0; c < 3; ++c) std::fill_n(f->component(c) + row, length, 0.0);
+    });
+  }
+  // A couple reads and moves the faces round its edges, which lie one plane farther.
+  coupled_ = problem.implicit_viscosity > 0 ? whole(g)
+             : problem.spin                 ? home_of(g, widened(g, exchange_.reach, 1))
+                                            : exchange_.reach;
+  residual_.reach = change_.reach = direction_.reach = coupled_;
   const Vec3 h = g.h;
   const double viscous = problem.implicit_viscosity * 2 * (1 / (h.x * h.x) + 1 / (h.y * h.y) + 1 / (h.z * h.z));
   double b_max = 0;
@@ -50,7 +70,7 @@ double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, c
     double *d = diagonal_.component(c), *r = residual_.component(c);
     const double *b = exchange_.component(c), *eps = void_fraction.component(c), *t = impulse.component(c),
                  *u = velocity.component(c);
-    for_each_unknown_face(g, c, [&](std::size_t n) {
+    for_each_face_within(g, c, coupled_, [&](std::size_t n) {
       d[n] = eps[n] + b[n] + viscous;
       r[n] += t[n] - b[n] * u[n];
       b_max = std::max(b_max, (b[n] + viscous) / eps[n]);   // what is left of r is stiff in either
@@ -61,37 +81,71 @@ double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, c
   if (problem.spin) problem.spin->add_diagonal(diagonal_);
   for (int c = 0; c < 3; ++c) {
     const double *d = diagonal_.component(c), *eps = void_fraction.component(c);
-    for_each_unknown_face(g, c, [&](std::size_t n) { b_max = std::max(b_max, d[n] / eps[n] - 1); });
+    for_each_face_within(g, c, coupled_, [&](std::size_t n) { b_max = std::max(b_max, d[n] / eps[n] - 1); });
   }
   return b_max;
 }
 
-void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction,
-                         FaceFields& x, FaceFields& out) {
-  clear(out);
-  const bool any_grain = !problem.stencils.empty();
-  const FaceFields& seen = any_grain ? problem.smoothing.seen(g, x, seen_) : x;
-  const Strides stride(g);
-  for (std::size_t p = 0; p < problem.stencils.size(); ++p) {
-    const Vec3 a = problem.relaxation[p], k = problem.exchange[p];
-    if (a == Vec3{}) continue;
-    const Stencil& s = problem.stencils[p];
-    const Vec3 share{-k.x * a.x / (1 + a.x), -k.y * a.y / (1 + a.y), -k.z * a.z / (1 + a.z)};
-    deposit(s, stride, scaled(share, sample(s, stride, seen)), out);
+/// Where nothing couples the faces, u* = u^n + T b_f/eps. Returns the square of what their residual was before.
+double ImplicitDrag::move_free_fluid(const StaggeredGrid& g, const FaceFields& void_fraction, const FaceFields& impulse,
+                                     FaceFields& velocity) {
+  double total = 0;
+  for (int c = 0; c < 3; ++c) {
+    double* const u = velocity.component(c);
+    const double *t = impulse.component(c), *eps = void_fraction.component(c);
+    const auto within = [&](int direction, int m) {
+      return m >= coupled_.first[direction] && m < coupled_.last[direction];
+    };
+    for (int i = c == 0 ? g.first_face(0) : 0; i < g.cells[0]; ++i) {
+      LaneSum plane;
+      for (int j = c == 1 ? g.first_face(1) : 0; j < g.cells[1]; ++j) {
+        const auto move = [&](int first, int last) {
+          const std::size_t row = g.index(i, j, first);
+          plane.add_row(std::max(last - first, 0), [&](int k) {
+            const std::size_t n = row + k;
+            u[n] += t[n] / eps[n];
+            return t[n] * t[n];
+          });
+        };
+        const int lowest = c == 2 ? g.first_face(2) : 0;
+        if (!within(0, i) || !within(1, j)) move(lowest, g.cells[2]);
+        else move(lowest, coupled_.first[2]), move(std::max(lowest, coupled_.last[2]), g.cells[2]);
+      }
+      total += plane.value();
+    }
   }
-  if (any_grain) fold_deposits(g, out), problem.smoothing.spread(out);
-  if (problem.implicit_viscosity > 0 || problem.spin) fill_velocity_ghosts(g, x, 0);
-  if (problem.spin) problem.spin->add_image(x, out);
+  return total;
+}
+
+/// image = A direction.
+void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction) {
+  const Stencils& stencils = problem.stencils;
+  const Strides stride(g);
+  if (!stencils.empty()) woven_.read(stencils.reach, problem.smoothing.seen<FaceFields>(direction_, seen_));
+  woven_too_.clear(stencils.reach);
+  for (std::size_t p = 0; p < stencils.size(); ++p) {
+    const Vec3 a = problem.relaxation[p], k = problem.exchange[p];
+    const Weights weights(stencils[p]);
+    const Vec3 read = read_[p] = on_faces(sample(weights, stride, woven_.at(stencils[p])));
+    if (a == Vec3{}) continue;
+    const Vec3 share{-k.x * a.x / (1 + a.x), -k.y * a.y / (1 + a.y), -k.z * a.z / (1 + a.z)};
+    deposit(weights, stride, quad(scaled(share, read)), woven_too_.at(stencils[p]));
+  }
+  woven_too_.settle(image_);
+  problem.smoothing.spread(image_);
+  image_.reach = coupled_;
+  if (problem.implicit_viscosity > 0 || problem.spin) fill_velocity_ghosts(g, direction_, 0);
+  if (problem.spin) problem.spin->add_image(direction_, image_);
   if (problem.implicit_viscosity > 0) {
-    laplacian(g, x, laplacian_);
-    if (problem.turbulence) problem.turbulence->add_force(x, -problem.step, out);
+    laplacian(g, direction_, laplacian_);
+    if (problem.turbulence) problem.turbulence->add_force(direction_, -problem.step, image_);
   }
   for (int c = 0; c < 3; ++c) {
-    double* y = out.component(c);
-    const double *eps = void_fraction.component(c), *b = exchange_.component(c), *v = x.component(c),
+    double* y = image_.component(c);
+    const double *eps = void_fraction.component(c), *b = exchange_.component(c), *v = direction_.component(c),
                  *l = laplacian_.component(c);
-    for_each_unknown_face(g, c,
-                          [&](std::size_t n) { y[n] += (eps[n] + b[n]) * v[n] - problem.implicit_viscosity * l[n]; });
+    for_each_face_within(g, c, coupled_,
+                         [&](std::size_t n) { y[n] += (eps[n] + b[n]) * v[n] - problem.implicit_viscosity * l[n]; });
   }
 }
 
@@ -99,35 +153,42 @@ int ImplicitDrag::solve(const StaggeredGrid& g, const DragProblem& problem, cons
                         const FaceFields& impulse, FaceFields& velocity, std::span<Vec3> flow_velocity) {
   const double b_max = start(g, problem, void_fraction, impulse, velocity);
   const auto each = [&](auto&& visit) {
-    for (int c = 0; c < 3; ++c) for_each_unknown_face(g, c, [&](std::size_t n) { visit(c, n); });
+    for (int c = 0; c < 3; ++c) for_each_face_within(g, c, coupled_, [&](std::size_t n) { visit(c, n); });
   };
-  clear(change_), clear(direction_), clear(laplacian_);
-  const double first = inner(g, residual_, residual_);
+  const auto inner = [&](const FaceFields& a, const FaceFields& b) {
+    return sum_within(g, coupled_, [&](int c, std::size_t n) { return a.component(c)[n] * b.component(c)[n]; });
+  };
+  const auto inner_scaled = [&](const FaceFields& a, const FaceFields& scale) {
+    return sum_within(g, coupled_, [&](int c, std::size_t n) {
+      return a.component(c)[n] * a.component(c)[n] / scale.component(c)[n];
+    });
+  };
+  read_.resize(problem.stencils.size());
+  std::copy(problem.flow_velocity.begin(), problem.flow_velocity.end(), flow_velocity.begin());
+  double left = inner(residual_, residual_);
+  const double first = left + move_free_fluid(g, void_fraction, impulse, velocity);
   const double goal = std::max(first * (0.01 / (1 + b_max)) * (0.01 / (1 + b_max)), std::numeric_limits<double>::min());
-  double weighted = inner_scaled(g, residual_, diagonal_), left = first, beta = 0;
+  double weighted = inner_scaled(residual_, diagonal_), beta = 0;
   int iterations = 0;
   while (left > goal && iterations < ImplicitDrag::most_iterations) {
     each([&](int c, std::size_t n) {
       double& d = direction_.component(c)[n];
       d = residual_.component(c)[n] / diagonal_.component(c)[n] + beta * d;
     });
-    apply(g, problem, void_fraction, direction_, image_);
-    const double step = weighted / inner(g, direction_, image_);
+    apply(g, problem, void_fraction);
+    const double step = weighted / inner(direction_, image_);
     each([&](int c, std::size_t n) {
       change_.component(c)[n] += step * direction_.component(c)[n];
       residual_.component(c)[n] -= step * image_.component(c)[n];
     });
-    const double next = inner_scaled(g, residual_, diagonal_);
+    for (std::size_t p = 0; p < read_.size(); ++p) flow_velocity[p] += step * read_[p];
+    const double next = inner_scaled(residual_, diagonal_);
     beta = next / weighted, weighted = next;
-    left = inner(g, residual_, residual_);
+    left = inner(residual_, residual_);
     ++iterations;
   }
-  each([&](int c, std::size_t n) { velocity.component(c)[n] += change_.component(c)[n]; });
-  const FaceFields& seen = problem.stencils.empty() ? velocity : problem.smoothing.seen(g, velocity, seen_);
-  for (std::size_t p = 0; p < problem.stencils.size(); ++p)
-    flow_velocity[p] = sample(problem.stencils[p], Strides(g), seen);
   each([&](int c, std::size_t n) {
-    velocity.component(c)[n] += residual_.component(c)[n] / void_fraction.component(c)[n];
+    velocity.component(c)[n] += change_.component(c)[n] + residual_.component(c)[n] / void_fraction.component(c)[n];
   });
   if (problem.implicit_viscosity > 0 || problem.spin) fill_velocity_ghosts(g, change_, 0);
   return iterations;

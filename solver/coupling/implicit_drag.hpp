@@ -14,7 +14,7 @@ namespace bedload {
 ///   per axis: exchange K = beta_p T/(rho_f V_c) [-], relaxation a = beta_p T/M [-] (0 for fixed grains); ballistic
 ///   velocity vt [m/s].
 struct DragProblem {
-  std::span<const Stencil> stencils;
+  const Stencils& stencils = no_stencils;
   std::span<const Vec3> exchange, relaxation;
   std::span<const Vec3> ballistic;
   std::span<const Vec3> flow_velocity;      // u^n at the grains [m/s]
@@ -27,7 +27,7 @@ struct DragProblem {
 
 /// Solves, for the change of velocity since u^n,
 ///   (eps_f + B_f) u*_f - sum_p w_pf K [a/(1+a)] (sum_g w_pg u*_g) - T [nu lap(u* - u^n) + div of its eddy stress] + curl^T C curl (u* - u^n)/4 = eps_f u^n_f + T b_f + sum_p w_pf K vt_p/(1+a)
-/// by conjugate gradients (symmetric positive definite, preconditioned by eps + B) to |r| < 0.01/(1 + b_max) |r_0|, b_max the largest of (B + viscous diagonal)/eps.
+/// by conjugate gradients (symmetric positive definite, preconditioned by eps + B; where no grain reaches and viscosity is explicit, directly) to |r| < 0.01/(1 + b_max) |r_0|, b_max the largest of (B + viscous diagonal)/eps.
 class ImplicitDrag {
  public:
   explicit ImplicitDrag(const StaggeredGrid&);
@@ -43,12 +43,18 @@ class ImplicitDrag {
   const FaceFields& change() const { return change_; }
 
  private:
-  void apply(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction, FaceFields& x, FaceFields& out);
+  void apply(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction);
   double start(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction, const FaceFields& impulse,
                const FaceFields& velocity);
+  double move_free_fluid(const StaggeredGrid&, const FaceFields& void_fraction, const FaceFields& impulse,
+                         FaceFields& velocity);
 
-  FaceFields exchange_, diagonal_, residual_, direction_, image_, change_, laplacian_;
-  FaceFields seen_;   // only with a smoothing
+  Reach coupled_;   // beyond it the faces know nothing of each other, nor of grains
+  Deposited exchange_, residual_, image_, direction_, change_;
+  FaceFields diagonal_, laplacian_;
+  Woven woven_, woven_too_;
+  std::vector<Vec3> read_;   // of the direction, by grain
+  FaceFields seen_;          // only with a smoothing
 };
 
 }   // namespace bedload

@@ -15,7 +15,7 @@ struct GrainPacking {
       others;   // the larger of what it samples of all others, and of their mean over the planes at its height
 };
 
-/// `void_fraction` as grains read it, its ghosts extended; `sampled` the void fraction at each grain.
+/// `void_fraction` as grains read it; `sampled` the void fraction at each grain.
 void find_packing(const StaggeredGrid&, const Grains&, const Field<Centre>& void_fraction,
                   std::span<const double> sampled, GrainPacking&, const KernelSmoothing& = {});
 

@@ -48,8 +48,8 @@ Quadrature crowded(const Quadrature& rule, double c) {
   Quadrature out;
   const double end = std::asinh(pi / c);
   for (int i = 0; i < points; ++i) {
-    const double t = end * rule.x[i];
-    out.x[i] = c * std::sinh(t), out.w[i] = end * rule.w[i] * c * std::cosh(t);
+    const double s = std::sinh(end * rule.x[i]);
+    out.x[i] = c * s, out.w[i] = end * rule.w[i] * c * std::sqrt(1 + s * s);
   }
   return out;
 }
@@ -60,11 +60,8 @@ std::array<double, 3> spline_power(double k) {
   return {(19 + 12 * c1 + c2) / 32, (-3 + 4 * c1 - c2) / 4, (3 - 4 * c1 + c2) / 2};
 }
 
-/// |sum of the hat's two weights exp(-i k n)|^2 as a mean and a multiple of hat_shape.
-std::array<double, 2> hat_power(double k) {
-  const double rise = 1 - std::cos(k);
-  return {1 - rise / 3, 2 / (pi * pi) * rise};
-}
+/// |sum of the hat's two weights exp(-i k n)|^2 as a mean and a multiple of hat_shape; rise = 1 - cos k.
+std::array<double, 2> hat_power(double rise) { return {1 - rise / 3, 2 / (pi * pi) * rise}; }
 /// What depends on the fraction f of the way from face to face: mean zero, first harmonic cos(2 pi f).
 double hat_shape(double f) { return pi * pi * (1.0 / 6 - f * (1 - f)); }
 
@@ -99,8 +96,8 @@ AlongMotion integrate_along(const Quadrature& rule, double across, double h, dou
       sum.stress += gain * weight[m] * total * total;
       sum.steady_stress += transverse * weight[m] * weight[m];
     }
-    sum.steady[0] += transverse / total, sum.steady[1] += transverse / total * std::cos(k);
-    const auto hat = hat_power(k);
+    sum.steady[0] += transverse / total, sum.steady[1] += transverse / total * (1 - 2 * half * half);
+    const auto hat = hat_power(2 * half * half);
     sum.displacement += line.w[i] * along / total * hat[0];
     sum.displacement_shape += line.w[i] * along / total * hat[1];
   }
@@ -124,8 +121,8 @@ void add_waves(const AlongMotion& along, double ka, double kb, double area, Resp
       sum.drag[n] += w * along.mean, sum.drag[9 + n] += w * along.cosine, sum.drag[18 + n] += w * along.sine;
       sum.displacement[n] += w * along.displacement, sum.displacement[9 + n] += w * along.displacement_shape;
     }
-  for (int l = 0; l < 18; ++l)
-    sum.steady[l] += area * along.steady[l / 9] * std::cos(l / 3 % 3 * ka) * std::cos(l % 3 * kb);
+  const double ca[3] = {1, std::cos(ka), std::cos(2 * ka)}, cb[3] = {1, std::cos(kb), std::cos(2 * kb)};
+  for (int l = 0; l < 18; ++l) sum.steady[l] += area * along.steady[l / 9] * ca[l / 3 % 3] * cb[l % 3];
   // p and p^2 are 1/12 and 1/80 in the mean over places
   const double everywhere = area * (a[0] + a[1] / 12 + a[2] / 80) * (b[0] + b[1] / 12 + b[2] / 80);
   sum.stress += everywhere * along.stress, sum.steady_stress += everywhere * along.steady_stress;
@@ -137,34 +134,60 @@ Response integrate(const Quadrature& rule, const StaggeredGrid& grid, int c, dou
   const Quadrature radius = crowded(rule, std::min(1.0, 0.1 + speed * std::cbrt(grid.cell_volume())));
   Response sum;
   for (int i = 0; i < points; ++i)
-    for (int j = 0; j < points; ++j)
-      for (const bool swapped : {false, true}) {   // the two triangles of a square: r and r t across
-        const double far = radius.x[i], near = far * rule.x[j];
-        const double ka = swapped ? near : far, kb = swapped ? far : near;
+    for (int j = 0; j < points; ++j) {   // the two triangles of a square: r and r t across, and the other way round
+      const double far = radius.x[i], near = far * rule.x[j], area = radius.w[i] * rule.w[j] * far / (pi * pi * pi);
+      const auto along = [&](double ka, double kb) {
         const double sa = 2 * std::sin(ka / 2) / ha, sb = 2 * std::sin(kb / 2) / hb;
-        add_waves(integrate_along(rule, sa * sa + sb * sb, h, speed), ka, kb,
-                  radius.w[i] * rule.w[j] * far / (pi * pi * pi), sum);
-      }
+        return integrate_along(rule, sa * sa + sb * sb, h, speed);
+      };
+      const AlongMotion first = along(far, near);
+      add_waves(first, far, near, area, sum);
+      add_waves(ha == hb ? first : along(near, far), near, far, area, sum);
+    }
   for (double& entry : sum.drag) entry /= grid.cell_volume();
   for (double& entry : sum.steady) entry /= grid.cell_volume();
   return sum;
 }
 
-}   // namespace
-
-SelfDisturbance::SelfDisturbance(const StaggeredGrid& grid) : grid_(grid), edge_(std::cbrt(grid.cell_volume())) {
-  const Quadrature rule = gauss_legendre();
-  for (int c = 0; c < 3; ++c)
-    for (int n = 0; n < nodes; ++n) {
-      const Response response = integrate(rule, grid, c, node_re(n) / edge_);
-      Component& table = components_[c];
-      table.drag.push_back(response.drag);
-      table.stress.push_back(response.stress / response.steady_stress);
-      if (n == 0) table.displacement = response.displacement, table.steady = response.steady;
-    }
+/// The response along an axis whose two others have changed places.
+Response mirrored(const Response& r) {
+  Response out = r;
+  const auto mirror = [](auto& to, const auto& from) {
+    for (std::size_t n = 0; n < to.size(); ++n) to[n] = from[9 * (n / 9) + 3 * (n % 3) + n / 3 % 3];
+  };
+  mirror(out.drag, r.drag), mirror(out.displacement, r.displacement), mirror(out.steady, r.steady);
+  return out;
 }
 
-double SelfDisturbance::unevenness(const Component& table, const double (&along)[2], const std::array<double, 3>& a,
+/// By axis; what follows from another axis by symmetry of the cell is not computed again.
+std::array<Response, 3> responses(const StaggeredGrid& grid, double speed) {
+  const Quadrature rule = gauss_legendre();
+  const Vec3 h = grid.h;
+  const Response x = integrate(rule, grid, 0, speed);
+  const Response y = h.x == h.y ? mirrored(x) : integrate(rule, grid, 1, speed);
+  const Response z = h.x == h.y && h.y == h.z ? x : integrate(rule, grid, 2, speed);
+  return {x, y, z};
+}
+
+}   // namespace
+
+SelfDisturbance::SelfDisturbance(const StaggeredGrid& grid)
+    : grid_(grid), edge_(std::cbrt(grid.cell_volume())), nodes_(nodes) {
+  node(0);
+}
+
+const SelfDisturbance::Node& SelfDisturbance::node(int n) const {
+  if (!nodes_[n]) {
+    const auto response = responses(grid_, node_re(n) / edge_);
+    Node& made = nodes_[n].emplace();
+    for (int c = 0; c < 3; ++c)
+      made[c] = {response[c].drag, response[c].stress / response[c].steady_stress, response[c].displacement,
+                 response[c].steady};
+  }
+  return *nodes_[n];
+}
+
+double SelfDisturbance::unevenness(const Axis& table, const double (&along)[2], const std::array<double, 3>& a,
                                    const std::array<double, 3>& b) const noexcept {
   double mean = 0, square = 0;
   for (int l = 0; l < 2; ++l)
@@ -191,11 +214,11 @@ OwnFlow SelfDisturbance::at(Vec3 position, Vec3 slip, double viscosity) const no
   const double place = std::min(std::asinh(re / first_re) / last_place, 1.0) * (nodes - 1);
   const int low = std::min(static_cast<int>(place), nodes - 2);
   const double beyond = re > last_re ? last_re / re : 1, next = place - low;
+  const Node &still = node(0), &below = node(low), &above = node(low + 1);
   OwnFlow own;
   Vec3 steady;
   double fade = 0, stress_fade = 0;
   for (int c = 0; c < 3; ++c) {
-    const Component& table = components_[c];
     const double f = fraction[c], lag = (slip[c] > 0 ? -1 : 1) * std::sin(2 * pi * f);
     const double along[3] = {1, hat_shape(f), lag};
     const double oa = fraction[(c + 1) % 3] - 0.5, ob = fraction[(c + 2) % 3] - 0.5, pa = oa * oa, pb = ob * ob;
@@ -207,16 +230,16 @@ OwnFlow SelfDisturbance::at(Vec3 position, Vec3 slip, double viscosity) const no
           for (int q = 0; q < 3; ++q) sum += shape[9 * l + 3 * p + q] * along[l] * a[p] * b[q];
       return sum;
     };
-    steady[c] = value(table.drag.front());
-    const double moving = beyond * ((1 - next) * value(table.drag[low]) + next * value(table.drag[low + 1]));
+    steady[c] = value(still[c].drag);
+    const double moving = beyond * ((1 - next) * value(below[c].drag) + next * value(above[c].drag));
     const double share = speed > 0 ? slip[c] * slip[c] / (speed * speed) : 1.0 / 3;
     fade += share * moving / steady[c];
-    stress_fade += share * beyond * ((1 - next) * table.stress[low] + next * table.stress[low + 1]);
-    own.displacement[c] = value(table.displacement);
+    stress_fade += share * beyond * ((1 - next) * below[c].stress + next * above[c].stress);
+    own.displacement[c] = value(still[c].displacement);
     const auto wa = quadratic_spline(oa), wb = quadratic_spline(ob);
     own.stress[c] = (f * f + (1 - f) * (1 - f)) * (wa[0] * wa[0] + wa[1] * wa[1] + wa[2] * wa[2]) *
                     (wb[0] * wb[0] + wb[1] * wb[1] + wb[2] * wb[2]);
-    own.unevenness[c] = unevenness(table, {1 - f, f}, wa, wb);
+    own.unevenness[c] = unevenness(still[c], {1 - f, f}, wa, wb);
   }
   own.drag = fade * steady;
   own.unevenness = own.unevenness / fade;

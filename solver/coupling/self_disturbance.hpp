@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "solver/fluid/staggered_grid.hpp"
@@ -22,7 +23,7 @@ struct OwnFlow {
       unevenness;   // variance, over its faces, of the velocity that a steady force makes there, over the mean squared [-]
 };
 
-/// Tables for one grid, computed when it is made (about a quarter of a second); deterministic.
+/// Tables for one grid, computed as they are asked for (a few milliseconds per node); deterministic.
 class SelfDisturbance {
  public:
   explicit SelfDisturbance(const StaggeredGrid&);
@@ -35,19 +36,22 @@ class SelfDisturbance {
   /// A function of the position relative to the faces of one component: a sum of products of three functions along its
   /// normal, three in the next direction, three in the one after.
   using Shape = std::array<double, 27>;
-  struct Component {
-    std::vector<Shape> drag;      // by Reynolds number of the cell, the force along the motion
-    std::vector<double> stress;   // mean share of the transverse own stress that is left, by Reynolds number
+  /// Along one axis at one Reynolds number of the cell.
+  struct Axis {
+    Shape drag;      // the force along the motion
+    double stress;   // mean share of the transverse own stress that is left
     Shape displacement;
     std::array<double, 18>
         steady;   // velocity of a face under a steady force on another [1/m], 0-1 faces along, 0-2 across
   };
-  double unevenness(const Component&, const double (&along)[2], const std::array<double, 3>& a,
+  using Node = std::array<Axis, 3>;
+  const Node& node(int) const;
+  double unevenness(const Axis&, const double (&along)[2], const std::array<double, 3>& a,
                     const std::array<double, 3>& b) const noexcept;
 
   StaggeredGrid grid_;
-  double edge_;   // of a cube of a cell's volume [m]
-  std::array<Component, 3> components_;
+  double edge_;                                      // of a cube of a cell's volume [m]
+  mutable std::vector<std::optional<Node>> nodes_;   // each a function of the grid alone
 };
 
 }   // namespace bedload

@@ -134,12 +134,11 @@ void KernelSmoothing::gather(Field<Centre>& f) const {
   if (any_) smooth(on_cells, false, Use::gather, f.data());
 }
 
-const FaceFields& KernelSmoothing::edges_seen(const StaggeredGrid& grid, FaceFields& on_edges,
-                                              FaceFields& scratch) const {
-  FaceFields& read = any_ ? scratch = on_edges : on_edges;
-  for (int t = 0; any_ && t < 3; ++t) smooth(on_x_edges + t, false, Use::gather, read.component(t));
-  extend_edge_samples(grid, read);
-  return read;
+const FaceFields& KernelSmoothing::edges_seen(const FaceFields& on_edges, FaceFields& scratch) const {
+  if (!any_) return on_edges;
+  scratch = on_edges;
+  for (int t = 0; t < 3; ++t) smooth(on_x_edges + t, false, Use::gather, scratch.component(t));
+  return scratch;
 }
 
 double KernelSmoothing::read_back(int direction, int i, int j) const noexcept {

@@ -12,7 +12,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/coupling/kernel.hpp"
+#include "solver/coupling/woven.hpp"
 #include "solver/scene.hpp"
 
 namespace bedload {
@@ -28,23 +28,32 @@ class KernelSmoothing {
 
   explicit operator bool() const { return any_; }
 
-  /// Spreads what was deposited and has gone home (fold_deposits), in amounts per cell volume; ghosts are left.
+  /// Spreads what was deposited and has gone home, in amounts per cell volume; ghosts are left.
   void spread(FaceFields&) const;
   void spread(Field<Centre>&) const;
   void spread_on_edges(FaceFields&) const;
   /// Spreads a flux through faces, which is zero on walls and stays so.
   void spread_flux(FaceFields&) const;
-
-  /// The field as grains read it, ghosts extended: itself, or its transposed spread in `scratch`. On walls the field holds
-  /// what it has there (0 for a velocity normal to them).
-  template <class Fields>
-  const Fields& seen(const StaggeredGrid& grid, Fields& field, Fields& scratch) const {
-    Fields& read = any_ ? scratch = field : field;
-    gather(read);
-    extend_samples(grid, read);
-    return read;
+  /// The same, and how far it reaches then.
+  void spread(Deposited& f) const { spread(static_cast<FaceFields&>(f)), f.reach = spread_over(f.reach); }
+  void spread_on_edges(Deposited& f) const {
+    spread_on_edges(static_cast<FaceFields&>(f)), f.reach = spread_over(f.reach);
   }
-  const FaceFields& edges_seen(const StaggeredGrid& grid, FaceFields& on_edges, FaceFields& scratch) const;
+  void spread_flux(Deposited& f) const { spread_flux(static_cast<FaceFields&>(f)), f.reach = spread_over(f.reach); }
+
+  /// The field as grains read it: itself, or its transposed spread in `scratch`. On walls the field holds what it has there
+  /// (0 for a velocity normal to them).
+  template <class Fields>
+  const Fields& seen(const Fields& field, Fields& scratch) const {
+    if (!any_) return field;
+    scratch = field;
+    gather(scratch);
+    return scratch;
+  }
+  const FaceFields& edges_seen(const FaceFields& on_edges, FaceFields& scratch) const;
+
+  /// Where a deposit that has gone home lies once it is spread.
+  Reach spread_over(const Reach& home) const { return any_ && !home.empty() ? whole(grid_) : home; }
 
   /// What is read in cell i of a direction of 1 deposited in cell j, at most two cells off; 1 or 0 without smoothing.
   double read_back(int direction, int i, int j) const noexcept;

@@ -53,7 +53,8 @@ void find_vorticity(const StaggeredGrid& g, const FaceFields& velocity, FaceFiel
       g, velocity, g.cells[2] + 1, [](int, std::size_t) { return One{}; }, on_edges);
 }
 
-SpinExchange::SpinExchange(const StaggeredGrid& g) : grid_(g), strength_(g), target_(g), turn_(g) {}
+SpinExchange::SpinExchange(const StaggeredGrid& g)
+    : grid_(g), strength_(g), target_(g), turn_(g), woven_(g, On::edges), woven_too_(g, On::edges) {}
 
 /// An edge on a no-slip wall turns with the wall's velocity held, and the ghost's is its mirror image: transposed, that counts
 /// twice. On a free surface there is no vorticity to resist.
@@ -73,17 +74,18 @@ void SpinExchange::weigh_walls(FaceFields& f) const {
   }
 }
 
-void SpinExchange::prepare(std::span<const Stencil> stencils, std::span<const Vec3> strength,
-                           std::span<const Vec3> target, const KernelSmoothing& smoothing) {
-  clear(strength_), clear(target_);
+void SpinExchange::prepare(const Stencils& stencils, std::span<const Vec3> strength, std::span<const Vec3> target,
+                           const KernelSmoothing& smoothing) {
+  woven_.clear(stencils.reach), woven_too_.clear(stencils.reach);
   const Strides stride(grid_);
   for (std::size_t p = 0; p < stencils.size(); ++p) {
     const Vec3 c = strength[p] / grid_.cell_volume();
-    deposit_on_edges(stencils[p], stride, c, strength_);
-    deposit_on_edges(stencils[p], stride, scaled(c, target[p]), target_);
+    const Weights<On::edges> weights(stencils[p]);
+    deposit(weights, stride, quad(c), woven_.at(stencils[p]));
+    deposit(weights, stride, quad(scaled(c, target[p])), woven_too_.at(stencils[p]));
   }
-  for (FaceFields* f : {&strength_, &target_}) {
-    fold_edge_deposits(grid_, *f);
+  woven_.settle(strength_), woven_too_.settle(target_);
+  for (Deposited* f : {&strength_, &target_}) {
     smoothing.spread_on_edges(*f);
     weigh_walls(*f);
     fill_face_ghosts(grid_, *f);

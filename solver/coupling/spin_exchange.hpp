@@ -23,7 +23,7 @@ class SpinExchange {
   explicit SpinExchange(const StaggeredGrid&);
 
   /// Takes `strength` = T c'_p per axis [m5] and spin targets omega_t [rad/s] by id, and the vorticity of u^n on edges.
-  void prepare(std::span<const Stencil>, std::span<const Vec3> strength, std::span<const Vec3> target,
+  void prepare(const Stencils&, std::span<const Vec3> strength, std::span<const Vec3> target,
                const KernelSmoothing& = {});
   /// impulse -= curl^T (C curl u^n/2 - S)/2, the couples if u* were u^n; `vorticity` on edges as from find_vorticity.
   void add_impulse(const FaceFields& vorticity, FaceFields& impulse);
@@ -42,8 +42,10 @@ class SpinExchange {
   int planes_reached() const;
 
   StaggeredGrid grid_;
-  FaceFields strength_, target_, turn_;   // C = sum w c' T/V_c, S = sum w c' T omega_t/V_c, scratch; on edges
-  int reach_ = 0;                         // C = 0 on edges from this plane along z on
+  Deposited strength_, target_;   // C = sum w c' T/V_c, S = sum w c' T omega_t/V_c, on edges
+  FaceFields turn_;               // scratch, on edges
+  Woven woven_, woven_too_;
+  int reach_ = 0;   // C = 0 on edges from this plane along z on
 };
 
 /// curl u on every edge, those on walls and in the first ghost layer round a period included; `velocity` has its ghosts filled.

@@ -10,8 +10,8 @@
 
 namespace bedload {
 
-/// The stencils of all grains, by id. Positions lie inside the box.
-void find_stencils(const StaggeredGrid&, const Grains&, std::vector<Stencil>& stencils);
+/// The stencils of all grains. Positions lie inside the box.
+void find_stencils(const StaggeredGrid&, const Grains&, Stencils&);
 
 /// Least eps of a face. A layer of grains whose centres lie in the plane of flat cells' faces, as on a flat bottom, would
 /// overfill these (all of a grain is deposited within one cell height): the fluid there would have no mass, or less.
@@ -25,26 +25,36 @@ struct OverfilledFace {
   double grain_share;
 };
 
-/// eps on centres and on faces: 1 - sum V_p w/V_c, in order of id, on unknown faces never below least_face_void. On the
+/// eps on centres and on faces: 1 - sum V_p w/V_c, in order of id, 1 where no grain reaches, on unknown faces never below least_face_void. On the
 /// faces of walls only the change in time has a meaning (half a control volume).
 struct VoidFraction {
   VoidFraction() = default;
-  explicit VoidFraction(const StaggeredGrid& g) : centre(g, 1), face(g, 1) {}
+  explicit VoidFraction(const StaggeredGrid& g) : centre(g, 1), face(g, 1), solid(g), solid_centre(g), woven(g) {}
   Field<Centre> centre;
   FaceFields face;
+  Deposited solid;                          // sum V_p w/V_c on faces, as it is
   std::vector<OverfilledFace> overfilled;   // by direction, then by face; seldom any
+  Field<Centre> solid_centre;               // scratch
+  Woven woven;
 };
-void deposit_void_fraction(const StaggeredGrid&, const Grains&, std::span<const Stencil>, VoidFraction&,
+void deposit_void_fraction(const StaggeredGrid&, const Grains&, const Stencils&, VoidFraction&,
                            const KernelSmoothing& = {});
 
-/// J = sum V_p v_p w/V_c on faces [m/s].
-void deposit_solid_flux(const StaggeredGrid&, const Grains&, std::span<const Stencil>, FaceFields& flux,
+/// A flux of solid through faces [m/s].
+struct SolidFlux : Deposited {
+  SolidFlux() = default;
+  explicit SolidFlux(const StaggeredGrid& g) : Deposited(g), woven(g) {}
+  Woven woven;   // scratch
+};
+
+/// J = sum V_p v_p w/V_c.
+void deposit_solid_flux(const StaggeredGrid&, const Grains&, const Stencils&, SolidFlux& flux,
                         const KernelSmoothing& = {});
 
 /// The mean flux over a step that moves solid from `before` (inside the box) by `moved`: the charge-conserving deposit of
 /// Esirkepov 2001 (Comput. Phys. Commun. 135, 144) for these splines, div J dt = phi_before - phi_after to round-off.
-/// Needs every |moved| below one cell edge.
+/// Needs every |moved| below one cell edge. `reach`: of the stencils before and after, united.
 void deposit_swept_flux(const StaggeredGrid&, const Grains&, std::span<const Vec3> before, std::span<const Vec3> moved,
-                        double dt, FaceFields& flux, const KernelSmoothing& = {});
+                        const Reach& reach, double dt, SolidFlux& flux, const KernelSmoothing& = {});
 
 }   // namespace bedload

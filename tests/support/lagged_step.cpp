@@ -20,8 +20,8 @@ LaggedStep::LaggedStep(const Scene& scene)
       laplace_(grid_),
       impulse_(grid_),
       flux_(grid_),
-      solid_flux_(grid_),
       kick_(grid_),
+      solid_flux_(grid_),
       response_(grid_),
       rhs_(grid_),
       correction_(grid_) {}
@@ -39,13 +39,13 @@ void LaggedStep::step(State& state, double dt, int substeps) {
   fill_centre_ghosts(grid_, state.fluid.pressure);
   gradient(grid_, state.fluid.pressure, acceleration_);
   laplacian(grid_, u, laplace_);
-  deposit_solid_flux(grid_, grains, stencils_, flux_);
+  deposit_solid_flux(grid_, grains, stencils_, solid_flux_);
   for (int c = 0; c < 3; ++c)
     for_each_unknown_face(grid_, c, [&](std::size_t n) {
       double& a = acceleration_.component(c)[n];
       a = nu * laplace_.component(c)[n] - a;
       impulse_.component(c)[n] = dt * before_.face.component(c)[n] * a;
-      flux_.component(c)[n] += before_.face.component(c)[n] * u.component(c)[n];
+      flux_.component(c)[n] = solid_flux_.component(c)[n] + before_.face.component(c)[n] * u.component(c)[n];
     });
 
   FlowAtGrains flow;
@@ -76,11 +76,12 @@ void LaggedStep::step(State& state, double dt, int substeps) {
       if (grid_.periodic(c))
         grains.position[p][c] -= grid_.length()[c] * std::floor(grains.position[p][c] / grid_.length()[c]);
   }
-  deposit_swept_flux(grid_, grains, start, moved, dt, solid_flux_);
+  const Reach former = stencils_.reach;
+  find_stencils(grid_, grains, stencils_);
+  deposit_swept_flux(grid_, grains, start, moved, united(former, stencils_.reach), dt, solid_flux_);
   for (int c = 0; c < 3; ++c)
     for_each_unknown_face(grid_, c, [&](std::size_t n) { flux_.component(c)[n] -= solid_flux_.component(c)[n]; });
   fill_face_ghosts(grid_, flux_);
-  find_stencils(grid_, grains, stencils_);
   deposit_void_fraction(grid_, grains, stencils_, after_);
   fill_face_ghosts(grid_, after_.face);
   transport(grid_, flux_, before_.face, after_.face, dt, carried, u, transport_scratch_);
@@ -91,11 +92,10 @@ void LaggedStep::step(State& state, double dt, int substeps) {
   find_mixture_response(grid_, held, stencils_, exchange, rho, after_, false, response_);
   for (int c = 0; c < 3; ++c)
     for_each_unknown_face(grid_, c, [&](std::size_t n) {
-      solid_flux_.component(c)[n] += after_.face.component(c)[n] * u.component(c)[n];
-      solid_flux_.component(c)[n] /= dt;
+      flux_.component(c)[n] = (solid_flux_.component(c)[n] + after_.face.component(c)[n] * u.component(c)[n]) / dt;
     });
-  fill_face_ghosts(grid_, solid_flux_), fill_face_ghosts(grid_, response_.coefficient);
-  divergence(grid_, solid_flux_, rhs_);
+  fill_face_ghosts(grid_, flux_), fill_face_ghosts(grid_, response_.coefficient);
+  divergence(grid_, flux_, rhs_);
   std::fill(correction_.values.begin(), correction_.values.end(), 0.0);
   pressure_.solve(response_.coefficient, rhs_, correction_, 1e-4, 1e-9 / (dt * dt));
   gradient(grid_, correction_, kick_);

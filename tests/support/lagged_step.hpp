@@ -27,11 +27,12 @@ class LaggedStep {
   ImplicitDrag drag_;
   PressureSolver pressure_;
   VoidFraction before_, after_;
-  FaceFields acceleration_, laplace_, impulse_, flux_, solid_flux_, kick_;
+  FaceFields acceleration_, laplace_, impulse_, flux_, kick_;
+  SolidFlux solid_flux_;
   MixtureResponse response_;
   Field<Centre> rhs_, correction_;
   TransportScratch transport_scratch_;
-  std::vector<Stencil> stencils_;
+  Stencils stencils_;
   std::vector<Vec3> last_velocity_;   // empty before the first step
 };
 

@@ -58,7 +58,7 @@ std::vector<Vec3> cubic_places(std::array<int, 3> count, Vec3 low, Vec3 high, do
 }
 
 FaceFields face_void_fraction(const Scene& scene, const State& state) {
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(scene.grid, state.grains, stencils);
   VoidFraction eps(scene.grid);
   deposit_void_fraction(scene.grid, state.grains, stencils, eps, KernelSmoothing(scene.grid, scene.smoothing));

@@ -19,7 +19,7 @@ std::vector<double> plane_means(double h, double sigma) {
   const int n = static_cast<int>(std::lround(16 * d / h));
   const Scene scene = fluid_scene({4, 4, n}, {2 * d, 2 * d, h}, channel, 1e-6);
   const State state = state_of(scene, cubic_places({8, 8, 8}, {}, {8 * d, 8 * d, 8 * d}, 0.1 * d, 3), true);
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(scene.grid, state.grains, stencils);
   VoidFraction eps(scene.grid);
   deposit_void_fraction(scene.grid, state.grains, stencils, eps, KernelSmoothing(scene.grid, {.xy = 0, .z = sigma}));

@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "tests/support/plain_kernel.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bedload::test {
@@ -14,13 +15,13 @@ constexpr double d = 1e-3;
 
 /// C_A of every grain of a state.
 std::vector<double> coefficients(const Scene& scene, const State& state, bool model_b = false) {
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(scene.grid, state.grains, stencils);
   VoidFraction eps(scene.grid);
   deposit_void_fraction(scene.grid, state.grains, stencils, eps);
   extend_samples(scene.grid, eps.centre);
   std::vector<double> sampled, added;
-  for (const Stencil& s : stencils) sampled.push_back(sample<on_cells>(s, Strides(scene.grid), eps.centre.data()));
+  for (const Stencil& s : stencils) sampled.push_back(sample(s, Strides(scene.grid), on_cells, eps.centre.data()));
   GrainPacking packing;
   find_packing(scene.grid, state.grains, eps.centre, sampled, packing);
   find_added_mass(state.grains, sampled, packing, model_b, added);

@@ -8,6 +8,7 @@
 #include "solver/coupling/explicit_forces.hpp"
 #include "solver/coupling/lateral_forces.hpp"
 #include "solver/coupling/wall_effects.hpp"
+#include "tests/support/plain_kernel.hpp"
 
 namespace bedload {
 namespace {
@@ -25,12 +26,12 @@ struct Channel {
     find_stencils(grid, grains, stencils);
     VoidFraction eps(grid);
     deposit_void_fraction(grid, grains, stencils, eps);
-    extend_samples(grid, eps.centre);
+    test::extend_samples(grid, eps.centre);
     const double beta = 3 * pi * nu * d;
     for (std::size_t p = 0; p < grains.size(); ++p) {
       flow.velocity.push_back({rate * grains.position[p].z, 0, 0});
       flow.vorticity.push_back({0, rate, 0});
-      flow.void_fraction.push_back(sample<on_cells>(stencils[p], Strides(grid), eps.centre.data()));
+      flow.void_fraction.push_back(test::sample(stencils[p], Strides(grid), on_cells, eps.centre.data()));
       flow.drag.push_back({beta, beta, beta});
       flow.force.push_back({});
     }
@@ -44,7 +45,7 @@ struct Channel {
   StaggeredGrid grid;
   BedScene bed;
   Grains grains;
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   FlowAtGrains flow;
   Sheltering sheltering;
 };

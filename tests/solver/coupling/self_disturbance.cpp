@@ -11,6 +11,7 @@
 #include "solver/fluid/face_loops.hpp"
 #include "solver/fluid/operators.hpp"
 #include "solver/fluid/pressure_projection.hpp"
+#include "tests/support/plain_kernel.hpp"
 
 namespace bedload::test {
 namespace {
@@ -192,13 +193,13 @@ Grains grains_at(std::vector<Vec3> places, double diameter) {
 }
 
 GrainPacking packing_of(const StaggeredGrid& g, const Grains& grains) {
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(g, grains, stencils);
   VoidFraction eps(g);
   deposit_void_fraction(g, grains, stencils, eps);
   extend_samples(g, eps.centre);
   std::vector<double> sampled;
-  for (const Stencil& s : stencils) sampled.push_back(sample<on_cells>(s, Strides(g), eps.centre.data()));
+  for (const Stencil& s : stencils) sampled.push_back(sample(s, Strides(g), on_cells, eps.centre.data()));
   GrainPacking packing;
   find_packing(g, grains, eps.centre, sampled, packing);
   return packing;
@@ -243,7 +244,7 @@ Vec3 drag_of_a_grain(double h, bool lone, Terms terms) {
   for (int n = 0; n < 27 && !lone; ++n)
     if (n != 13) places.push_back(places[0] + Vec3{n / 9 - 1.0, n / 3 % 3 - 1.0, n % 3 - 1.0});
   const Grains grains = grains_at(places, 1);
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(g, grains, stencils);
   VoidFraction eps(g);
   deposit_void_fraction(g, grains, stencils, eps);
@@ -289,7 +290,7 @@ TEST(LoneGrain, IsFreedOfTheFlowThatGetsOutOfItsWay) {
   const StaggeredGrid g = grid_of({16, 16, 16}, {h, h, h});
   Grains grains = grains_at({{8.3 * h, 8.1 * h, 8.6 * h}}, 1);
   grains.velocity[0] = {0, 0, speed};
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(g, grains, stencils);
   FaceFields flux(g), u(g), still(g);
   deposit(stencils[0], Strides(g), sphere_volume(1) / g.cell_volume() * grains.velocity[0], flux);

@@ -10,6 +10,7 @@
 #include "solver/fluid/boundaries.hpp"
 #include "solver/fluid/face_loops.hpp"
 #include "solver/fluid/operators.hpp"
+#include "tests/support/plain_kernel.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bedload::test {
@@ -91,7 +92,7 @@ TEST_P(SmoothedKernel, ReadsByTheTranspose) {
   FaceFields given(g), field(g), scratch;
   fill(given, 1), fill(field, 2);
   const FaceFields amounts = given;
-  const FaceFields seen = smoothing.seen(g, field, scratch), seen_on_edges = smoothing.edges_seen(g, field, scratch);
+  const FaceFields seen = smoothing.seen(field, scratch), seen_on_edges = smoothing.edges_seen(field, scratch);
   FaceFields spread = amounts, spread_on_edges = amounts;
   smoothing.spread(spread), smoothing.spread_on_edges(spread_on_edges);
   for (int c = 0; c < 3; ++c) {
@@ -114,7 +115,7 @@ TEST_P(SmoothedKernel, LeavesUniformFieldsAlone) {
         amounts.component(c)[n] *= 0.5;
   const FaceFields before = amounts;
   smoothing.spread(amounts);
-  const FaceFields seen = smoothing.seen(g, uniform, scratch);
+  const FaceFields seen = smoothing.seen(uniform, scratch);
   for (int c = 0; c < 3; ++c)
     for (const std::size_t n : places(g, c)) {
       EXPECT_NEAR(seen.component(c)[n], 0.7, 1e-14);
@@ -143,7 +144,7 @@ TEST_P(SmoothedKernel, VoidFractionChangesOnlyByTheSweptFlux) {
   const StaggeredGrid g = grid_with(GetParam());
   const KernelSmoothing smoothing(g, widths);
   Grains grains = random_grains(g, 200, 5);
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   VoidFraction before(g), after(g);
   find_stencils(g, grains, stencils);
   deposit_void_fraction(g, grains, stencils, before, smoothing);
@@ -158,9 +159,10 @@ TEST_P(SmoothedKernel, VoidFractionChangesOnlyByTheSweptFlux) {
       x = g.periodic(c) ? to - g.length()[c] * std::floor(to / g.length()[c]) : to;
     }
   const double dt = 1e-3;
-  FaceFields flux(g);
-  deposit_swept_flux(g, grains, start, moved, dt, flux, smoothing);
+  const Reach former = stencils.reach;
   find_stencils(g, grains, stencils);
+  SolidFlux flux(g);
+  deposit_swept_flux(g, grains, start, moved, united(former, stencils.reach), dt, flux, smoothing);
   deposit_void_fraction(g, grains, stencils, after, smoothing);
   fill_face_ghosts(g, flux);
   Field<Centre> change(g);
@@ -173,7 +175,7 @@ TEST_P(SmoothedKernel, GivesTheFacesOfALineWhatItGivesItsCells) {
   // What the transport of momentum needs: of every line along c, walls' faces with their half control volumes included.
   const StaggeredGrid g = grid_with(GetParam());
   const Grains grains = random_grains(g, 100, 5);
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(g, grains, stencils);
   VoidFraction eps(g);
   deposit_void_fraction(g, grains, stencils, eps, KernelSmoothing(g, widths));
@@ -197,13 +199,14 @@ TEST_P(SmoothedKernel, ALoneGrainSeesNoOthers) {
     Grains one;
     one.resize(1);
     one.position[0] = grains.position.back(), one.diameter[0] = 1e-3;
-    std::vector<Stencil> stencils;
+    Stencils stencils;
     find_stencils(g, one, stencils);
     VoidFraction eps(g);
     deposit_void_fraction(g, one, stencils, eps, smoothing);
     Field<Centre> scratch;
-    const Field<Centre>& seen = smoothing.seen(g, eps.centre, scratch);
-    const double sampled = sample<on_cells>(stencils[0], Strides(g), seen.data());
+    Field<Centre> seen = smoothing.seen(eps.centre, scratch);
+    extend_samples(g, seen);
+    const double sampled = sample(stencils[0], Strides(g), on_cells, seen.data());
     GrainPacking packing;
     find_packing(g, one, seen, std::vector{sampled}, packing, smoothing);
     EXPECT_NEAR(1 - sampled, packing.own[0], 1e-13);
@@ -220,7 +223,7 @@ TEST(Smoothing, OfNoWidthChangesNoBit) {
   const FaceFields before = f;
   none.spread(f), none.spread_flux(f), none.spread_on_edges(f);
   EXPECT_EQ(f, before);
-  EXPECT_EQ(&none.seen(g, f, scratch), &f);
+  EXPECT_EQ(&none.seen(f, scratch), &f);
 }
 
 }   // namespace

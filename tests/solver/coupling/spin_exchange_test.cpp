@@ -8,6 +8,7 @@
 #include "solver/coupling/void_fraction.hpp"
 #include "solver/fluid/boundaries.hpp"
 #include "solver/fluid/face_loops.hpp"
+#include "tests/support/plain_kernel.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bedload::test {
@@ -62,8 +63,8 @@ TEST(Vorticity, OfARigidRotationIsTwiceItAtEveryGrain) {
   FaceFields u(scene.grid), vorticity(scene.grid);
   for_all_faces(scene.grid, [&](int c, std::size_t n, Vec3 x) { u.component(c)[n] = cross(omega, x)[c]; });
   find_vorticity(scene.grid, u, vorticity);
-  const Vec3 sampled =
-      sample_edges(Stencil(scene.grid, {2.3 * edges.x, 1.9 * edges.y, 3.4 * edges.z}), Strides(scene.grid), vorticity);
+  const Vec3 sampled = sample(Stencil(scene.grid, {2.3 * edges.x, 1.9 * edges.y, 3.4 * edges.z}), Strides(scene.grid),
+                              vorticity, on_x_edges);
   EXPECT_LT(norm(sampled - 2 * omega), 1e-12);
 }
 
@@ -73,8 +74,8 @@ TEST(EdgeKernel, ReadsAConstantEverywhereAndGivesAllAway) {
   for (const Vec3 at : {Vec3{0.01, 0.01, 0.01}, {0.99, 0.99, 0.99}, {0.5, 0.4, 0.02}}) {
     const Stencil s(scene.grid, scaled(at, length));
     FaceFields given(scene.grid), ones(scene.grid);
-    deposit_on_edges(s, Strides(scene.grid), {1, 2, 3}, given);
-    fold_edge_deposits(scene.grid, given);
+    deposit(s, Strides(scene.grid), {1, 2, 3}, given, on_x_edges);
+    fold_deposits(scene.grid, given, on_x_edges);
     for (int t = 0; t < 3; ++t) {
       double sum = 0;
       for (int i = 0; i <= scene.grid.cells[0]; ++i)
@@ -85,8 +86,8 @@ TEST(EdgeKernel, ReadsAConstantEverywhereAndGivesAllAway) {
           }
       EXPECT_NEAR(sum, t + 1, 1e-14);
     }
-    extend_edge_samples(scene.grid, ones);
-    EXPECT_LT(norm(sample_edges(s, Strides(scene.grid), ones) - Vec3{1, 1, 1}), 1e-14);
+    extend_samples(scene.grid, ones, on_x_edges);
+    EXPECT_LT(norm(sample(s, Strides(scene.grid), ones, on_x_edges) - Vec3{1, 1, 1}), 1e-14);
   }
 }
 
@@ -108,7 +109,7 @@ TEST_P(Couples, ActOnTheFluidAsASymmetricPositiveOperatorOfWhichTheyAreTheGradie
   scene.grid.top = GetParam().top;
   const StaggeredGrid& g = scene.grid;
   const State state = state_of(scene, cubic_places({3, 3, 3}, {}, g.length(), 1e-4, 4), true);
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(g, state.grains, stencils);
   const std::vector<Vec3> strength(stencils.size(), {1e-9, 1e-9, 1e-9});
   SpinExchange spin(g);
@@ -142,7 +143,7 @@ TEST(Couples, LeaveLinearMomentumAndGiveTheOppositeAngularMomentum) {
   const StaggeredGrid& g = scene.grid;
   const State state = state_of(
       scene, {{4.2 * edges.x, 3.7 * edges.y, 4.9 * edges.z}, {3.1 * edges.x, 4.4 * edges.y, 3.6 * edges.z}}, true);
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(g, state.grains, stencils);
   const std::vector<Vec3> strength{{2e-9, 1e-9, 4e-9}, {3e-9, 5e-9, 2e-9}};
   const std::vector<Vec3> spin_of{{5, -2, 1}, {0.5, 3, -4}};

@@ -8,6 +8,7 @@
 #include "solver/fluid/boundaries.hpp"
 #include "solver/fluid/face_loops.hpp"
 #include "solver/fluid/operators.hpp"
+#include "tests/support/plain_kernel.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bedload::test {
@@ -37,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(VoidFraction, OnAnyBox,
 TEST_P(OnAnyBox, ConservesGrainVolume) {
   const StaggeredGrid g = grid_with(GetParam());
   const Grains grains = random_grains(g, 200, 1);
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(g, grains, stencils);
   VoidFraction eps(g);
   deposit_void_fraction(g, grains, stencils, eps);
@@ -52,7 +53,7 @@ TEST_P(OnAnyBox, ChangesOnlyByTheSweptFlux) {
   const StaggeredGrid g = grid_with(GetParam());
   const double dt = 1e-3;
   Grains grains = random_grains(g, 300, 2);
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(g, grains, stencils);
   VoidFraction before(g), after(g);
   deposit_void_fraction(g, grains, stencils, before);
@@ -68,10 +69,11 @@ TEST_P(OnAnyBox, ChangesOnlyByTheSweptFlux) {
       moved[p][c] = to - x;
       x = to < 0 ? to + g.length()[c] : to >= g.length()[c] ? to - g.length()[c] : to;
     }
-  FaceFields flux(g);
-  deposit_swept_flux(g, grains, start, moved, dt, flux);
-  fill_face_ghosts(g, flux);
+  const Reach former = stencils.reach;
   find_stencils(g, grains, stencils);
+  SolidFlux flux(g);
+  deposit_swept_flux(g, grains, start, moved, united(former, stencils.reach), dt, flux);
+  fill_face_ghosts(g, flux);
   deposit_void_fraction(g, grains, stencils, after);
   Field<Centre> source(g);
   divergence(g, flux, source);
@@ -88,9 +90,9 @@ TEST_P(OnAnyBox, HasARateOfChangeEqualToTheDivergenceOfTheSolidFlux) {
   Grains grains = random_grains(g, 100, 4);
   for (int c = 0; c < 3; ++c)
     for (Vec3& x : grains.position) x[c] = std::clamp(x[c], 0.1 * g.h[c], g.length()[c] - 0.1 * g.h[c]);
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(g, grains, stencils);
-  FaceFields flux(g);
+  SolidFlux flux(g);
   deposit_solid_flux(g, grains, stencils, flux);
   fill_face_ghosts(g, flux);
   Field<Centre> source(g);
@@ -171,7 +173,7 @@ TEST(VoidFraction, OfAnOverfilledFaceIsWhatSpheresLeaveAndItsGrainsShareTheRest)
   g.sides = {Side::periodic, Side::periodic, Side::wall};
   Grains grains = flat_layer(g, d);
   for (Vec3& x : grains.position) x.z = g.h.z;   // pi/6 d^3 in a cell's height d^2 h_z: more than fits
-  std::vector<Stencil> stencils;
+  Stencils stencils;
   find_stencils(g, grains, stencils);
   VoidFraction eps(g);
   deposit_void_fraction(g, grains, stencils, eps);

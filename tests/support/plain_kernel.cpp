@@ -1,6 +1,6 @@
-#include "solver/coupling/kernel.hpp"
+#include "tests/support/plain_kernel.hpp"
 
-namespace bedload {
+namespace bedload::test {
 namespace {
 
 /// A ghost plane of one direction and the plane inside that it stands for.
@@ -54,19 +54,12 @@ void fold(const StaggeredGrid& g, int place, double* f) {
 
 }   // namespace
 
-void extend_samples(const StaggeredGrid& g, FaceFields& f) {
-  for (int c = 0; c < 3; ++c) extend(g, c, f.component(c));
+void extend_samples(const StaggeredGrid& g, FaceFields& f, int first) {
+  for (int c = 0; c < 3; ++c) extend(g, first + c, f.component(c));
 }
 void extend_samples(const StaggeredGrid& g, Field<Centre>& f) { extend(g, on_cells, f.data()); }
-void extend_edge_samples(const StaggeredGrid& g, FaceFields& f) {
-  for (int t = 0; t < 3; ++t) extend(g, on_x_edges + t, f.component(t));
-}
-void fold_deposits(const StaggeredGrid& g, FaceFields& f) {
-  for (int c = 0; c < 3; ++c) fold(g, c, f.component(c));
-}
-void fold_deposits(const StaggeredGrid& g, Field<Centre>& f) { fold(g, on_cells, f.data()); }
-void fold_edge_deposits(const StaggeredGrid& g, FaceFields& f) {
-  for (int t = 0; t < 3; ++t) fold(g, on_x_edges + t, f.component(t));
+void fold_deposits(const StaggeredGrid& g, FaceFields& f, int first) {
+  for (int c = 0; c < 3; ++c) fold(g, first + c, f.component(c));
 }
 
-}   // namespace bedload
+}   // namespace bedload::test

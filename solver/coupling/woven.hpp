@@ -1,0 +1,73 @@
+// Fields as grains read and write them: the values that belong to one cell side by side, and beyond the sides of the box the
+// image of what lies inside.
+//
+// A grain near a side writes to ghosts as if the box went on: settle() brings that home (round the period, or reflected at a
+// wall); read() fills ghosts with what lies at home: the transpose. Work is done only where grains reach, so that a lone grain
+// in a large box, or a bed at the bottom of a channel, costs no more than what it touches.
+#pragma once
+
+#include "solver/coupling/kernel.hpp"
+
+namespace bedload {
+
+/// The planes that a deposit within `reach` fills once it is home: ghosts left out, faces on walls kept.
+Reach home_of(const StaggeredGrid&, const Reach&);
+/// The whole grid, without ghosts, faces on walls included.
+Reach whole(const StaggeredGrid&);
+/// The reach widened by `planes` cells in every direction; whole where it then meets a seam.
+Reach widened(const StaggeredGrid&, Reach, int planes);
+/// What holds both.
+Reach united(const Reach&, const Reach&);
+
+/// Calls body(padded index, length) for each row along z of a box.
+template <class Body>
+inline void for_each_row(const StaggeredGrid& g, const Reach& box, Body&& body) {
+  for (int i = box.first[0]; i < box.last[0]; ++i)
+    for (int j = box.first[1]; j < box.last[1]; ++j) body(g.index(i, j, box.first[2]), box.last[2] - box.first[2]);
+}
+
+/// Calls visit(padded index) for every unknown face normal to c in a box.
+template <class Visit>
+inline void for_each_face_within(const StaggeredGrid& g, int c, Reach box, Visit&& visit) {
+  box.first[c] = std::max(box.first[c], g.first_face(c));
+  for (int t = 0; t < 3; ++t) box.last[t] = std::min(box.last[t], g.cells[t]);
+  for_each_row(g, box, [&](std::size_t row, int length) {
+    for (std::size_t n = row; n < row + std::max(length, 0); ++n) visit(n);
+  });
+}
+
+/// A field on faces or edges that grains have written: zero where they did not reach.
+struct Deposited : FaceFields {
+  Deposited() = default;
+  explicit Deposited(const StaggeredGrid& g) : FaceFields(g) {}
+  Reach reach;   // no ghosts
+};
+
+/// A woven field, in the padded shape of all fields.
+class Woven {
+ public:
+  Woven() = default;
+  explicit Woven(const StaggeredGrid& g, On where = On::faces) : grid_(g), where_(where), cells_(g.padded_size()) {}
+
+  bool fits(const StaggeredGrid& g) const { return grid_ == g && !cells_.empty(); }
+  const Quad* at(const Stencil& s) const { return cells_.data() + s.corner; }
+  Quad* at(const Stencil& s) { return cells_.data() + s.corner; }
+  Quad* data() { return cells_.data(); }
+
+  /// Takes the fields up within the reach; `in_cells` may be null.
+  void read(const Reach&, const FaceFields&, const Field<Centre>* in_cells = nullptr);
+  /// Zero within the reach: before a deposit.
+  void clear(const Reach&);
+  /// After a deposit: brings home what was written into ghosts, and writes it out; the rest of the field is zero.
+  void settle(Deposited&, Field<Centre>* in_cells = nullptr);
+
+ private:
+  void fold_along(int direction, const Reach&);
+
+  StaggeredGrid grid_;
+  On where_ = On::faces;
+  Reach reach_;   // of the last clear
+  std::vector<Quad> cells_;
+};
+
+}   // namespace bedload
