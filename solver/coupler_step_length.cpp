@@ -18,10 +18,12 @@ constexpr int least_substeps = 4;              // where drag holds grains fast, 
 /// Duration of the shortest Hertz collision of two like grains of the bed at `speed`, or at the speed of an overlap of
 /// 0.1 % if that is more: resting contacts are springs too.
 double shortest_contact(const Grains& grains, const GrainProperties& g, double speed) {
-  double shortest = std::numeric_limits<double>::infinity(), diameter = 0, density = 0;
+  double shortest = std::numeric_limits<double>::infinity(), diameter = 0, density = 0, last = 0, power = 0;
   for (std::size_t p = 0; p < grains.size(); ++p) {
     if (grains.fixed[p]) continue;
-    const double d = grains.diameter[p], rho = grains.density[p], scale = d * std::pow(rho, 0.4);   // t_c ~ d rho^(2/5)
+    const double d = grains.diameter[p], rho = grains.density[p];
+    if (rho != last) last = rho, power = std::pow(rho, 0.4);   // t_c ~ d rho^(2/5)
+    const double scale = d * power;
     if (scale < shortest) shortest = scale, diameter = d, density = rho;
   }
   const double resting =
@@ -85,7 +87,8 @@ int Coupler::Parts::limit_by_grains(const State& state, double& step) {
   const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
   double fastest = 0;
   for (std::size_t p = 0; p < grains.size(); ++p)
-    if (!grains.fixed[p]) fastest = std::max(fastest, norm(grains.velocity[p]));
+    if (!grains.fixed[p]) fastest = std::max(fastest, norm2(grains.velocity[p]));
+  fastest = std::sqrt(fastest);
   if (fastest > 0) shorten(step, largest_grain_travel * shortest_edge / fastest, StepLimit::travel);
   double relaxation_time = std::numeric_limits<double>::infinity();   // the shortest M/beta
   for (std::size_t p = 0; p < grains.size(); ++p)

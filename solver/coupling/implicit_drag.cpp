@@ -53,11 +53,7 @@ double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, c
   }
   woven_.settle(exchange_), woven_too_.settle(residual_);
   problem.smoothing.spread(exchange_), problem.smoothing.spread(residual_);
-  for (Deposited* f : {&change_, &direction_}) {
-    for_each_row(g, f->reach, [&](std::size_t row, int length) {
-      for (int c = 0; c < 3; ++c) std::fill_n(f->component(c) + row, length, 0.0);
-    });
-  }
+  change_.clear(g), direction_.clear(g);
   // A couple reads and moves the faces round its edges, which lie one plane farther.
   coupled_ = problem.implicit_viscosity > 0 ? whole(g)
              : problem.spin                 ? home_of(g, widened(g, exchange_.reach, 1))

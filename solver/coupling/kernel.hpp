@@ -20,7 +20,8 @@ namespace bedload {
 using Quad = double __attribute__((vector_size(32)));
 
 inline Quad quad(double each) noexcept { return Quad{each, each, each, each}; }
-inline Quad quad(Vec3 v, double in_cell = 0) noexcept { return Quad{v.x, v.y, v.z, in_cell}; }
+/// The entry of the cell has no meaning.
+inline Quad quad(Vec3 v) noexcept { return Quad{v.x, v.y, v.z, v.z}; }
 inline Vec3 on_faces(Quad q) noexcept { return {q[0], q[1], q[2]}; }
 inline double in_cell(Quad q) noexcept { return q[3]; }
 
@@ -30,8 +31,9 @@ struct Strides {
 };
 
 /// Weights of the three cells around `offset`, the distance from the middle one's centre in cell edges (|offset| <= 1/2).
-constexpr std::array<double, 3> quadratic_spline(double offset) noexcept {
-  const double l = 0.5 - offset, r = 0.5 + offset;
+template <class Real>
+constexpr std::array<Real, 3> quadratic_spline(Real offset) noexcept {
+  const Real l = 0.5 - offset, r = 0.5 + offset;
   return {0.5 * l * l, 0.75 - offset * offset, 0.5 * r * r};
 }
 
@@ -106,18 +108,23 @@ struct Weights {
   Quad x[3], y[3], z[3];
 
   explicit Weights(const Stencil& s) noexcept {
-    fill<0>(s.fraction.x, x), fill<1>(s.fraction.y, y), fill<2>(s.fraction.z, z);
+    const Quad f = quad(s.fraction), none{};
+    const auto spline = quadratic_spline(f - 0.5);
+    const Quad hat[3] = {none, 1 - f, f};
+    for (int m = 0; m < 3; ++m) {
+      x[m] = chosen<0>(spline[m], hat[m]);
+      y[m] = chosen<1>(spline[m], hat[m]);
+      z[m] = chosen<2>(spline[m], hat[m]);
+    }
   }
 
  private:
+  /// Of weights by direction, those of one direction: for each entry the hat's or the spline's.
   template <int direction>
-  static void fill(double fraction, Quad (&w)[3]) noexcept {
-    const auto spline = quadratic_spline(fraction - 0.5);
-    const double hat[3] = {0, 1 - fraction, fraction};
-    using Mask = long long __attribute__((vector_size(32)));
-    constexpr Mask hats = {-has_hat(where, 0, direction), -has_hat(where, 1, direction), -has_hat(where, 2, direction),
-                           -has_hat(where, 3, direction)};
-    for (int m = 0; m < 3; ++m) w[m] = hats ? quad(hat[m]) : quad(spline[m]);
+  static Quad chosen(Quad spline, Quad hat) noexcept {
+    using Lanes = long long __attribute__((vector_size(32)));
+    constexpr auto from = [](int entry) { return direction + (has_hat(where, entry, direction) ? 4 : 0); };
+    return __builtin_shuffle(spline, hat, Lanes{from(0), from(1), from(2), from(3)});
   }
 };
 

@@ -1,5 +1,7 @@
 #include "solver/coupling/mixture_response.hpp"
 
+#include <algorithm>
+
 #include "solver/fluid/face_loops.hpp"
 
 namespace bedload {
@@ -22,28 +24,38 @@ MixtureResponse::MixtureResponse(const StaggeredGrid& g)
 
 namespace {
 
-/// Fills B, phi_M and the inertia.
+void copy(const StaggeredGrid& g, const Deposited& from, double factor, Deposited& to) {
+  to.assign(g, from.reach, [&](int c, std::size_t n) { return factor * from.component(c)[n]; });
+}
+
+/// Fills B, phi_M and the inertia. Where no grain is fixed, phi_M is all solid; where densities are alike, the inertia is a
+/// multiple of it.
 void deposit_grains(const StaggeredGrid& g, const Grains& grains, const Stencils& stencils,
-                    std::span<const Vec3> exchange, double fluid_density, MixtureResponse& m,
-                    const KernelSmoothing& smoothing) {
-  for (Woven* w : {&m.locked, &m.exchange, &m.fraction, &m.inertia}) w->clear(stencils.reach);
+                    std::span<const Vec3> exchange, double fluid_density, const VoidFraction& void_fraction,
+                    MixtureResponse& m, const KernelSmoothing& smoothing) {
+  const bool all_mobile = std::all_of(grains.fixed.begin(), grains.fixed.end(), [](auto f) { return f == 0; });
+  const bool alike = std::all_of(grains.density.begin(), grains.density.end(),
+                                 [&](double rho) { return rho == grains.density.front(); });
+  m.exchange.clear(stencils.reach);
+  m.locked.clear(all_mobile ? Reach{} : stencils.reach), m.fraction.clear(all_mobile ? Reach{} : stencils.reach);
+  m.inertia.clear(alike ? Reach{} : stencils.reach);
   const Strides stride(g);
   for (std::size_t p = 0; p < grains.size(); ++p) {
     const Stencil& s = stencils[p];
     const Weights weights(s);
-    if (grains.fixed[p]) {
-      deposit(weights, stride, quad(exchange[p]), m.locked.at(s));
-      continue;
-    }
+    const bool fixed = grains.fixed[p];
+    deposit(weights, stride, quad(exchange[p]), (fixed ? m.locked : m.exchange).at(s));
+    if (fixed || (all_mobile && alike)) continue;
     const double volume = sphere_volume(grains.diameter[p]) / g.cell_volume();
-    deposit(weights, stride, quad(exchange[p]), m.exchange.at(s));
-    deposit(weights, stride, quad(volume), m.fraction.at(s));
-    deposit(weights, stride, quad(volume * grains.density[p] / fluid_density), m.inertia.at(s));
+    if (!all_mobile) deposit(weights, stride, quad(volume), m.fraction.at(s));
+    if (!alike) deposit(weights, stride, quad(volume * grains.density[p] / fluid_density), m.inertia.at(s));
   }
-  m.locked.settle(m.locked_exchange), m.exchange.settle(m.mobile_exchange);
-  m.fraction.settle(m.mobile_fraction), m.inertia.settle(m.mobile_inertia);
-  for (Deposited* f : {&m.locked_exchange, &m.mobile_exchange, &m.mobile_fraction, &m.mobile_inertia})
-    smoothing.spread(*f);
+  m.exchange.settle(m.mobile_exchange), smoothing.spread(m.mobile_exchange);
+  m.locked.settle(m.locked_exchange), smoothing.spread(m.locked_exchange);
+  if (all_mobile) copy(g, void_fraction.solid, 1, m.mobile_fraction);
+  else m.fraction.settle(m.mobile_fraction), smoothing.spread(m.mobile_fraction);
+  if (alike && grains.size() > 0) copy(g, m.mobile_fraction, grains.density.front() / fluid_density, m.mobile_inertia);
+  else m.inertia.settle(m.mobile_inertia), smoothing.spread(m.mobile_inertia);
 }
 
 }   // namespace
@@ -52,7 +64,7 @@ void find_mixture_response(const StaggeredGrid& g, const Grains& grains, const S
                            std::span<const Vec3> exchange, double fluid_density, const VoidFraction& void_fraction,
                            bool model_b, MixtureResponse& m, const KernelSmoothing& smoothing) {
   const Reach former = m.mobile_fraction.reach;
-  deposit_grains(g, grains, stencils, exchange, fluid_density, m, smoothing);
+  deposit_grains(g, grains, stencils, exchange, fluid_density, void_fraction, m, smoothing);
   for (int c = 0; c < 3; ++c) {
     double *cf = m.fluid.component(c), *cp = m.grains.component(c), *both = m.coefficient.component(c);
     double* phi = m.mobile_fraction.component(c);

@@ -3,21 +3,29 @@
 namespace bedload {
 namespace {
 
-/// What a grain reads along one direction of 1 that it has deposited: without smoothing the sum of the squares of its spline
-/// weights, those that fold onto one cell added first.
-double own_share(const StaggeredGrid& grid, const KernelSmoothing& smoothing, int direction, double x) {
+/// What a grain reads along one direction of 1 that it has deposited, whatever folds onto what.
+double own_share_of_any(const StaggeredGrid& grid, const KernelSmoothing& smoothing, int direction, int cell,
+                        const std::array<double, 3>& weights) {
   const int n = grid.cells[direction];
-  const double s = x / grid.h[direction];
-  const int cell = cell_of(s, n);
-  const auto weights = quadratic_spline(s - cell - 0.5);
-  if (const bool folded = n < 3 || (!grid.periodic(direction) && (cell == 0 || cell == n - 1)); !folded && !smoothing)
-    return weights[0] * weights[0] + weights[1] * weights[1] + weights[2] * weights[2];
   const auto home = [&](int i) { return grid.periodic(direction) ? (i + n) % n : std::clamp(i, 0, n - 1); };
   double sum = 0;
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b)
       sum += weights[a] * weights[b] * smoothing.read_back(direction, home(cell - 1 + a), home(cell - 1 + b));
   return sum;
+}
+
+/// The same: without smoothing the sum of the squares of its spline weights, those that fold onto one cell at a wall added
+/// first.
+inline double own_share(const StaggeredGrid& grid, const KernelSmoothing& smoothing, int direction, int cell,
+                        std::array<double, 3> w) {
+  const int n = grid.cells[direction];
+  if (smoothing || n < 3) return own_share_of_any(grid, smoothing, direction, cell, w);
+  if (!grid.periodic(direction)) {
+    if (cell == 0) w = {0, w[0] + w[1], w[2]};
+    else if (cell == n - 1) w = {w[0], w[1] + w[2], 0};
+  }
+  return w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
 }
 
 /// Mean packing density of every plane of cells, with one plane of ghosts at either end.
@@ -42,13 +50,16 @@ void find_packing(const StaggeredGrid& grid, const Grains& grains, const Field<C
   packing.own.resize(grains.size()), packing.others.resize(grains.size());
   const std::vector<double> means = plane_means(grid, void_fraction);
   for (std::size_t p = 0; p < grains.size(); ++p) {
-    const Vec3& x = grains.position[p];
-    const double volume = sphere_volume(grains.diameter[p]) / grid.cell_volume(),
-                 along = own_share(grid, smoothing, 2, x.z);
-    packing.own[p] = volume * own_share(grid, smoothing, 0, x.x) * own_share(grid, smoothing, 1, x.y) * along;
-    const double s = x.z / grid.h.z;
-    const int k = cell_of(s, grid.cells[2]);
-    const auto w = quadratic_spline(s - k - 0.5);
+    const double volume = sphere_volume(grains.diameter[p]) / grid.cell_volume();
+    double across = 1, along = 1;
+    int k = 0;
+    std::array<double, 3> w;   // along z, at the end
+    for (int c = 0; c < 3; ++c) {
+      const double s = grains.position[p][c] / grid.h[c];
+      k = cell_of(s, grid.cells[c]), w = quadratic_spline(s - k - 0.5);
+      (c < 2 ? across : along) *= own_share(grid, smoothing, c, k, w);
+    }
+    packing.own[p] = volume * across * along;
     const double plane = w[0] * means[k] + w[1] * means[k + 1] + w[2] * means[k + 2];
     packing.others[p] =
         std::max(1 - sampled[p] - packing.own[p], plane - volume * along / (grid.cells[0] * grid.cells[1]));

@@ -5,45 +5,65 @@
 namespace bedload {
 namespace {
 
-/// The spline of one direction before a move and after, on the four cells that a move of less than one cell can touch.
-struct MovedSpline {
-  double before[4] = {}, change[4] = {}, passed[4] = {};   // passed: what goes through the lower face of each cell
-  int first;                                               // number of the first of the four cells
-  int count;   // how many of them are touched: 3, or 4 if the grain changed its cell
+/// The splines of all directions before a move and their change, on the four cells of each that a move of less than one cell
+/// can touch.
+struct MovedSplines {
+  Quad before[4] = {}, change[4] = {}, passed[4] = {};   // by cell; passed: what goes through the cell's lower face
+  int first[3];                                          // number of the first of the four cells
+  bool stays;                                            // in its cell, and touches three of them in each direction
 
-  MovedSpline(double s, double moved, int n) noexcept {
-    const int cell = cell_of(s, n);
-    const int shift = std::clamp(static_cast<int>(std::floor(s + moved)) - cell, -1, 1);
-    const int start = shift < 0 ? 1 : 0, end = shift > 0 ? 1 : 0;
-    first = cell - 1 - start, count = 3 + start + end;
-    const auto b = quadratic_spline(s - cell - 0.5);
-    const auto a = quadratic_spline(s + moved - cell - shift - 0.5);
-    for (int m = 0; m < 3; ++m) before[start + m] = b[m], change[start + m] -= b[m];
-    for (int m = 0; m < 3; ++m) change[end + m] += a[m];
-    for (int m = 1; m < count; ++m) passed[m] = passed[m - 1] - change[m - 1];
+  MovedSplines(const StaggeredGrid& grid, Vec3 start, Vec3 moved) noexcept {
+    Quad from, to;   // offset from the middle of the cell, before and after
+    int shift[3];
+    for (int c = 0; c < 3; ++c) {
+      const double s = start[c] / grid.h[c], end = s + moved[c] / grid.h[c];
+      const int cell = cell_of(s, grid.cells[c]);
+      shift[c] = std::clamp(static_cast<int>(std::floor(end)) - cell, -1, 1);
+      first[c] = cell - 1 - (shift[c] < 0);
+      from[c] = s - cell - 0.5, to[c] = end - cell - shift[c] - 0.5;
+    }
+    from[3] = from[2], to[3] = to[2];
+    const auto b = quadratic_spline(from), a = quadratic_spline(to);
+    for (int m = 0; m < 3; ++m) before[m] = b[m], change[m] = a[m] - b[m];
+    for (int c = 0; c < 3; ++c)
+      if (shift[c] != 0) apart(c, shift[c], b, a);
+    for (int m = 1; m < 4; ++m) passed[m] = passed[m - 1] - change[m - 1];
+    for (int c = 0; c < 3; ++c)
+      if (shift[c] == 0) passed[3][c] = 0;
+    stays = shift[0] == 0 && shift[1] == 0 && shift[2] == 0;
+  }
+
+ private:
+  /// One direction again, where start and end lie on cells of their own.
+  void apart(int c, int shift, const std::array<Quad, 3>& b, const std::array<Quad, 3>& a) noexcept {
+    const int start = shift < 0 ? 1 : 0, end = 1 - start;
+    for (int m = 0; m < 4; ++m) {
+      before[m][c] = m >= start && m < start + 3 ? b[m - start][c] : 0;
+      change[m][c] = (m >= end && m < end + 3 ? a[m - end][c] : 0) - before[m][c];
+    }
   }
 };
 
 /// Adds the flux that one grain sweeps: through each face what passes along the face's normal, times the mean over the move of
 /// the product of the two splines b across it, b_1 b_2 + (d_1 b_2 + b_1 d_2)/2 + d_1 d_2/3 with the changes d; written as
 /// b_1 (b_2 + d_2/2) + d_1 (b_2/2 + d_2/3), two products of one factor per direction.
-void sweep(const MovedSpline (&s)[3], Strides stride, Quad amount, Quad* corner) noexcept {
-  const auto halfway = [](const MovedSpline& m, int i) { return m.before[i] + 0.5 * m.change[i]; };
-  const auto rest = [](const MovedSpline& m, int i) { return 0.5 * m.before[i] + m.change[i] / 3; };
-  Quad y1[4], y2[4], z1[4], z2[4];
-  for (int m = 0; m < 4; ++m) {
-    y1[m] = Quad{s[1].before[m], s[1].passed[m], halfway(s[1], m), 0};
-    y2[m] = Quad{s[1].change[m], s[1].passed[m], rest(s[1], m), 0};
-    z1[m] = Quad{halfway(s[2], m), halfway(s[2], m), s[2].passed[m], 0};
-    z2[m] = Quad{rest(s[2], m), rest(s[2], m), s[2].passed[m], 0};
+template <int cells>
+void sweep(const MovedSplines& s, Strides stride, Quad amount, Quad* corner) noexcept {
+  Quad y1[cells], y2[cells], z1[cells], z2[cells];
+  for (int m = 0; m < cells; ++m) {
+    const Quad halfway = s.before[m] + 0.5 * s.change[m], rest = 0.5 * s.before[m] + s.change[m] / 3;
+    y1[m] = quad({s.before[m][1], s.passed[m][1], halfway[1]});
+    y2[m] = quad({s.change[m][1], s.passed[m][1], rest[1]});
+    z1[m] = quad({halfway[2], halfway[2], s.passed[m][2]});
+    z2[m] = quad({rest[2], rest[2], s.passed[m][2]});
   }
-  for (int a = 0; a < s[0].count; ++a) {
-    const Quad x1 = amount * Quad{s[0].passed[a], s[0].before[a], s[0].before[a], 0},
-               x2 = amount * Quad{s[0].passed[a], s[0].change[a], s[0].change[a], 0};
-    for (int b = 0; b < s[1].count; ++b) {
+  for (int a = 0; a < cells; ++a) {
+    const double passed = s.passed[a][0], before = s.before[a][0], change = s.change[a][0];
+    const Quad x1 = amount * quad({passed, before, before}), x2 = amount * quad({passed, change, change});
+    for (int b = 0; b < cells; ++b) {
       const Quad line1 = x1 * y1[b], line2 = x2 * y2[b];
       Quad* cell = corner + a * stride.x + b * stride.y;
-      for (int c = 0; c < s[2].count; ++c) cell[c] += line1 * z1[c] + line2 * z2[c];
+      for (int c = 0; c < cells; ++c) cell[c] += line1 * z1[c] + line2 * z2[c];
     }
   }
 }
@@ -116,11 +136,10 @@ void deposit_swept_flux(const StaggeredGrid& grid, const Grains& grains, std::sp
   const Strides stride(grid);
   for (std::size_t p = 0; p < grains.size(); ++p) {
     if (grains.fixed[p]) continue;
-    const MovedSpline s[3] = {{before[p].x / grid.h.x, moved[p].x / grid.h.x, grid.cells[0]},
-                              {before[p].y / grid.h.y, moved[p].y / grid.h.y, grid.cells[1]},
-                              {before[p].z / grid.h.z, moved[p].z / grid.h.z, grid.cells[2]}};
-    sweep(s, stride, quad(sphere_volume(grains.diameter[p]) * per_step * grid.h),
-          flux.woven.data() + grid.index(s[0].first, s[1].first, s[2].first));
+    const MovedSplines s(grid, before[p], moved[p]);
+    const Quad amount = quad(sphere_volume(grains.diameter[p]) * per_step * grid.h);
+    Quad* const corner = flux.woven.data() + grid.index(s.first[0], s.first[1], s.first[2]);
+    s.stays ? sweep<3>(s, stride, amount, corner) : sweep<4>(s, stride, amount, corner);
   }
   settle_flux(grid, flux, smoothing);
 }

@@ -77,7 +77,7 @@ void Woven::read(const Reach& reach, const FaceFields& fields, const Field<Centr
       if (cell)
         for (int k = first; k < last; ++k) row[k] = Quad{x[k], y[k], z[k], cell[k]};
       else
-        for (int k = first; k < last; ++k) row[k] = Quad{x[k], y[k], z[k], 0};
+        for (int k = first; k < last; ++k) row[k] = quad({x[k], y[k], z[k]});
       for (int k = last; k < above; ++k) row[k] = take(k);
     }
 }
@@ -106,10 +106,10 @@ void Woven::fold_along(int c, const Reach& box) {
 void Woven::settle(Deposited& out, Field<Centre>* in_cells) {
   for (const int c : {2, 1, 0}) fold_along(c, reach_);
   const Reach home = home_of(grid_, reach_);
-  for_each_row(grid_, out.reach, [&](std::size_t row, int length) {
-    for (int c = 0; c < 3; ++c) std::fill_n(out.component(c) + row, length, 0.0);
-    if (in_cells) std::fill_n(in_cells->data() + row, length, 0.0);
-  });
+  if (in_cells)
+    for_each_row(grid_, out.reach,
+                 [&](std::size_t row, int length) { std::fill_n(in_cells->data() + row, length, 0.0); });
+  out.clear(grid_);
   out.reach = home;
   for_each_row(grid_, home, [&](std::size_t row, int length) {
     const Quad* __restrict q = cells_.data() + row;

@@ -41,6 +41,23 @@ struct Deposited : FaceFields {
   Deposited() = default;
   explicit Deposited(const StaggeredGrid& g) : FaceFields(g) {}
   Reach reach;   // no ghosts
+
+  /// value(direction, padded index) within a reach, zero beyond.
+  template <class Value>
+  void assign(const StaggeredGrid& g, const Reach& to, Value&& value) {
+    clear(g);
+    reach = to;
+    for_each_row(g, to, [&](std::size_t row, int length) {
+      for (int c = 0; c < 3; ++c)
+        for (std::size_t n = row; n < row + length; ++n) component(c)[n] = value(c, n);
+    });
+  }
+  void clear(const StaggeredGrid& g) {
+    for_each_row(g, reach, [&](std::size_t row, int length) {
+      for (int c = 0; c < 3; ++c) std::fill_n(component(c) + row, length, 0.0);
+    });
+    reach = {};
+  }
 };
 
 /// A woven field, in the padded shape of all fields.
