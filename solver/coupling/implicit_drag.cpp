@@ -42,13 +42,14 @@ double ImplicitDrag::start(const StaggeredGrid& g, const DragProblem& problem, c
   const Stencils& stencils = problem.stencils;
   const Strides stride(g);
   woven_.clear(stencils.reach), woven_too_.clear(stencils.reach);
+  read_.resize(stencils.size()), share_.resize(stencils.size());
   for (std::size_t p = 0; p < stencils.size(); ++p) {
     const Vec3 k = problem.exchange[p], a = problem.relaxation[p];
-    const Vec3 followed = scaled(a, problem.flow_velocity[p]) + problem.ballistic[p];
+    const Vec3 held{k.x / (1 + a.x), k.y / (1 + a.y), k.z / (1 + a.z)};
+    share_[p] = scaled(held, a);
     const Weights weights(stencils[p]);
     deposit(weights, stride, quad(k), woven_.at(stencils[p]));
-    deposit(weights, stride,
-            quad({k.x / (1 + a.x) * followed.x, k.y / (1 + a.y) * followed.y, k.z / (1 + a.z) * followed.z}),
+    deposit(weights, stride, quad(scaled(share_[p], problem.flow_velocity[p]) + scaled(held, problem.ballistic[p])),
             woven_too_.at(stencils[p]));
   }
   woven_.settle(exchange_), woven_too_.settle(residual_);
@@ -120,12 +121,9 @@ void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, con
   if (!stencils.empty()) woven_.read(stencils.reach, problem.smoothing.seen<FaceFields>(direction_, seen_));
   woven_too_.clear(stencils.reach);
   for (std::size_t p = 0; p < stencils.size(); ++p) {
-    const Vec3 a = problem.relaxation[p], k = problem.exchange[p];
     const Weights weights(stencils[p]);
-    const Vec3 read = read_[p] = on_faces(sample(weights, stride, woven_.at(stencils[p])));
-    if (a == Vec3{}) continue;
-    const Vec3 share{-k.x * a.x / (1 + a.x), -k.y * a.y / (1 + a.y), -k.z * a.z / (1 + a.z)};
-    deposit(weights, stride, quad(scaled(share, read)), woven_too_.at(stencils[p]));
+    read_[p] = on_faces(sample(weights, stride, woven_.at(stencils[p])));
+    if (share_[p] != Vec3{}) deposit(weights, stride, quad(-scaled(share_[p], read_[p])), woven_too_.at(stencils[p]));
   }
   woven_too_.settle(image_);
   problem.smoothing.spread(image_);
@@ -159,7 +157,6 @@ int ImplicitDrag::solve(const StaggeredGrid& g, const DragProblem& problem, cons
       return a.component(c)[n] * a.component(c)[n] / scale.component(c)[n];
     });
   };
-  read_.resize(problem.stencils.size());
   std::copy(problem.flow_velocity.begin(), problem.flow_velocity.end(), flow_velocity.begin());
   double left = inner(residual_, residual_);
   const double first = left + move_free_fluid(g, void_fraction, impulse, velocity);

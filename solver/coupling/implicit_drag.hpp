@@ -53,8 +53,8 @@ class ImplicitDrag {
   Deposited exchange_, residual_, image_, direction_, change_;
   FaceFields diagonal_, laplacian_;
   Woven woven_, woven_too_;
-  std::vector<Vec3> read_;   // of the direction, by grain
-  FaceFields seen_;          // only with a smoothing
+  std::vector<Vec3> read_, share_;   // by grain: of the direction; K a/(1+a)
+  FaceFields seen_;                  // only with a smoothing
 };
 
 }   // namespace bedload

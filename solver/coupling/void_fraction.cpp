@@ -63,7 +63,7 @@ void sweep(const MovedSplines& s, Strides stride, Quad amount, Quad* corner) noe
     for (int b = 0; b < cells; ++b) {
       const Quad line1 = x1 * y1[b], line2 = x2 * y2[b];
       Quad* cell = corner + a * stride.x + b * stride.y;
-      for (int c = 0; c < cells; ++c) cell[c] += line1 * z1[c] + line2 * z2[c];
+      for (int c = 0; c < cells; ++c) cell[c] = fused(line2, z2[c], fused(line1, z1[c], cell[c]));
     }
   }
 }
