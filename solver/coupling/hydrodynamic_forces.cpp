@@ -84,7 +84,7 @@ void sample_flow(const StaggeredGrid& grid, const Grains& grains, const Stencils
   flow.void_clamps = flow.disturbance_clamps = flow.lift_clamps = 0;
   if (n == 0) return;
   const Field<Centre>& eps = smoothing.seen(void_fraction, flow.seen.void_fraction);
-  if (!flow.woven.fits(grid)) flow.woven = flow.woven_too = Woven(grid);
+  if (!flow.woven.fits(grid)) flow.woven = Woven(grid), flow.woven_too = Woven(grid);
   flow.woven.read(stencils.reach, smoothing.seen(velocity, flow.seen.velocity), &eps);
   flow.woven_too.read(stencils.reach, smoothing.seen(acceleration, flow.seen.acceleration));
   const Strides stride(grid);

@@ -6,6 +6,8 @@
 // in a large box, or a bed at the bottom of a channel, costs no more than what it touches.
 #pragma once
 
+#include <memory>
+
 #include "solver/coupling/kernel.hpp"
 
 namespace bedload {
@@ -60,7 +62,25 @@ struct Deposited : FaceFields {
   }
 };
 
-/// A woven field, in the padded shape of all fields.
+/// Leaves memory as it comes: pages that grains never reach are never touched.
+template <class T>
+struct Untouched : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = Untouched<U>;
+  };
+  using std::allocator<T>::allocator;
+  template <class U>
+  void construct(U* place) noexcept {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <class U>
+  void construct(U* place, const U& value) noexcept {
+    ::new (static_cast<void*>(place)) U(value);
+  }
+};
+
+/// A woven field, in the padded shape of all fields; it holds values within the reach of the last read or clear.
 class Woven {
  public:
   Woven() = default;
@@ -84,7 +104,7 @@ class Woven {
   StaggeredGrid grid_;
   On where_ = On::faces;
   Reach reach_;   // of the last clear
-  std::vector<Quad> cells_;
+  std::vector<Quad, Untouched<Quad>> cells_;
 };
 
 }   // namespace bedload
