@@ -33,7 +33,7 @@ struct Multigrid::Hierarchy {
     std::array<int, 3> cells = g.cells;
     Vec3 h = g.h;
     levels.emplace_back(cells, periodic);
-    while (levels.back().cell_count() > directly_solved) {
+    while (levels.back().layout().cell_count() > directly_solved) {
       ratios.push_back(coarsening(cells, h));
       for (int c = 0; c < 3; ++c) {
         cells[c] = (cells[c] + ratios.back()[c] - 1) / ratios.back()[c];
@@ -41,31 +41,36 @@ struct Multigrid::Hierarchy {
       }
       levels.emplace_back(cells, periodic);
     }
-    on_coarsest.resize(levels.back().cell_count());
+    on_coarsest.resize(levels.back().layout().cell_count());
   }
 
-  void cycle(std::size_t l) noexcept {
+  /// Returns solution . right-hand side of the level.
+  double cycle(std::size_t l) noexcept {
     if (l + 1 == levels.size()) return solve_coarsest();
-    levels[l].smooth_from_zero();
-    levels[l].restrict_residual(levels[l + 1], ratios[l]);
+    levels[l].smooth_and_restrict(levels[l + 1], ratios[l]);
     cycle(l + 1);
-    levels[l].correct_and_smooth(levels[l + 1], ratios[l]);
+    return levels[l].correct_and_smooth(levels[l + 1], ratios[l]);
   }
 
   template <class Body>
   void for_each_coarsest_cell(Body&& body) noexcept {
-    const auto [nx, ny, nz] = levels.back().cells();
+    const SplitGrid& at = levels.back().layout();
     int n = 0;
-    for (int i = 0; i < nx; ++i)
-      for (int j = 0; j < ny; ++j)
-        for (int k = 0; k < nz; ++k) body(i, j, k, on_coarsest[n++]);
+    for (int i = 0; i < at.cells[0]; ++i)
+      for (int j = 0; j < at.cells[1]; ++j)
+        for (int k = 0; k < at.cells[2]; ++k) body(at.at(i, j, k), on_coarsest[n++]);
   }
 
-  void solve_coarsest() noexcept {
-    MultigridLevel& level = levels.back();
-    for_each_coarsest_cell([&](int i, int j, int k, double& x) { x = level.right_hand_side(i, j, k); });
+  double solve_coarsest() noexcept {
+    float *r = levels.back().right_hand_side(), *z = levels.back().solution();
+    for_each_coarsest_cell([&](std::size_t n, double& x) { x = r[n]; });
     coarsest.solve(on_coarsest.data());
-    for_each_coarsest_cell([&](int i, int j, int k, double& x) { level.solution(i, j, k) = static_cast<float>(x); });
+    double product = 0;
+    for_each_coarsest_cell([&](std::size_t n, double& x) {
+      z[n] = static_cast<float>(x);
+      product += x * r[n];
+    });
+    return product;
   }
 
   StaggeredGrid grid;
@@ -78,32 +83,24 @@ struct Multigrid::Hierarchy {
 Multigrid::Multigrid(const StaggeredGrid& g) : hierarchy_(std::make_unique<Hierarchy>(g)) {}
 Multigrid::~Multigrid() = default;
 
-void Multigrid::set_couplings(const FaceFields& couplings) {
+void Multigrid::set_couplings(const FaceFields& couplings, double scale) {
   Hierarchy& m = *hierarchy_;
   const StaggeredGrid& g = m.grid;
-  double largest = 0;   // scales single precision to its comfortable range
-  for (int c = 0; c < 3; ++c)
-    for_each_cell_row(g, [&](std::size_t row, int length) {
-      for (std::size_t n = row; n < row + length; ++n) largest = std::max(largest, couplings.component(c)[n]);
-    });
-  const double scale = largest > 0 ? 1 / largest : 1;
   for (int c = 0; c < 3; ++c)
     for (int i = 0; i < g.cells[0]; ++i)
       for (int j = 0; j < g.cells[1]; ++j)
         m.levels[0].set_couplings(c, i, j, couplings.component(c) + g.index(i, j, 0), scale);
   m.levels[0].finish_couplings();
   for (std::size_t l = 1; l < m.levels.size(); ++l) m.levels[l].aggregate_couplings(m.levels[l - 1], m.ratios[l - 1]);
-  m.coarsest.factor(m.levels.back().cell_count(), m.levels.back().matrix());
+  m.coarsest.factor(m.levels.back().layout().cell_count(), m.levels.back().matrix());
 }
 
-void Multigrid::set_right_hand_side(int i, int j, const double* row, double scale) noexcept {
-  hierarchy_->levels[0].set_right_hand_side(i, j, row, scale);
-}
-
-void Multigrid::cycle() noexcept { hierarchy_->cycle(0); }
-
-void Multigrid::get_solution(int i, int j, double* row) const noexcept {
-  hierarchy_->levels[0].get_solution(i, j, row);
+const SplitGrid& Multigrid::layout() const { return hierarchy_->levels[0].layout(); }
+float* Multigrid::right_hand_side() noexcept { return hierarchy_->levels[0].right_hand_side(); }
+const float* Multigrid::solution() const noexcept { return hierarchy_->levels[0].solution(); }
+double Multigrid::cycle() noexcept { return hierarchy_->cycle(0); }
+double Multigrid::apply(int plane, const float* field, float* image) const noexcept {
+  return hierarchy_->levels[0].apply(plane, field, image);
 }
 
 }   // namespace bedload

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "solver/fluid/split_grid.hpp"
 #include "solver/fluid/staggered_grid.hpp"
 
 namespace bedload {
@@ -16,17 +17,19 @@ class Multigrid {
   explicit Multigrid(const StaggeredGrid&);
   ~Multigrid();
 
-  /// Couplings w = c/h^2 (any unit; only ratios matter) on faces 0..n of all directions, zero on walls.
-  void set_couplings(const FaceFields& couplings);
+  /// Couplings w = c/h^2 (any unit; only ratios matter) on faces 0..n of all directions, zero on walls, times `scale`.
+  void set_couplings(const FaceFields& couplings, double scale);
 
-  /// Right-hand side r of one row of cells, in units of `scale` (to be the same for all rows).
-  void set_right_hand_side(int i, int j, const double* row, double scale) noexcept;
-  /// z = approximately (inverse of -div c grad) r, up to a factor that only the couplings decide.
-  void cycle() noexcept;
-  void get_solution(int i, int j, double* row) const noexcept;
+  const SplitGrid& layout() const;
+  /// r and z in layout(); r without ghosts.
+  float* right_hand_side() noexcept;
+  const float* solution() const noexcept;
+  /// z = approximately (inverse of A = -scale div c grad) r; returns r.z.
+  double cycle() noexcept;
+  /// image = A field on one plane of cells; the field has its ghosts. Returns field . image of the plane.
+  double apply(int plane, const float* field, float* image) const noexcept;
 
  private:
-  struct Level;
   struct Hierarchy;
   std::unique_ptr<Hierarchy> hierarchy_;
 };

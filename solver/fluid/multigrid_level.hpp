@@ -5,16 +5,17 @@
 #include <cstddef>
 #include <vector>
 
+#include "solver/fluid/rows.hpp"
+#include "solver/fluid/split_grid.hpp"
+
 namespace bedload {
 
-/// Cells stored as x-planes of y-rows with one ghost layer. Each row is split into its even and its odd k, so that the
-/// cells of one colour of a row are contiguous, and every neighbour of theirs too. Walls are faces without coupling.
+/// Walls are faces without coupling. Each pass below goes once through memory.
 class MultigridLevel {
  public:
   MultigridLevel(std::array<int, 3> cells, std::array<bool, 3> periodic);
 
-  const std::array<int, 3>& cells() const { return cells_; }
-  int cell_count() const { return cells_[0] * cells_[1] * cells_[2]; }
+  const SplitGrid& layout() const { return at_; }
 
   /// Couplings of the cells of a row with their lower neighbours along c; to be followed by finish_couplings().
   void set_couplings(int c, int i, int j, const double* row, double scale) noexcept;
@@ -25,46 +26,37 @@ class MultigridLevel {
   /// The level's matrix, dense, row by row (for the coarsest level).
   std::vector<double> matrix() const;
 
-  void set_right_hand_side(int i, int j, const double* row, double scale) noexcept;
-  void get_solution(int i, int j, double* row) const noexcept;
-  float& right_hand_side(int i, int j, int k) { return right_[at(i, j, k)]; }
-  float& solution(int i, int j, int k) { return x_[at(i, j, k)]; }
+  /// Fields in layout(); the right-hand side has no ghosts.
+  float* right_hand_side() { return right_.data(); }
+  const float* right_hand_side() const { return right_.data(); }
+  float* solution() { return x_.data(); }
+  const float* solution() const { return x_.data(); }
 
-  /// Two sweeps from a zero guess, red first.
-  void smooth_from_zero() noexcept;
-  /// Right-hand side of `coarse` = sums of this level's residual over aggregates.
-  void restrict_residual(MultigridLevel& coarse, std::array<int, 3> ratio) noexcept;
+  /// Two sweeps from a zero guess, red first; the right-hand side of `coarse` becomes the sums of the residual over
+  /// aggregates.
+  void smooth_and_restrict(MultigridLevel& coarse, std::array<int, 3> ratio) noexcept;
   /// Adds to each cell the solution of its aggregate, then two sweeps in exactly the reverse order of colours.
-  void correct_and_smooth(const MultigridLevel& coarse, std::array<int, 3> ratio) noexcept;
+  /// Returns solution . right-hand side.
+  double correct_and_smooth(const MultigridLevel& coarse, std::array<int, 3> ratio) noexcept;
+  /// image = A field on one plane of cells; the field has its ghosts. Returns field . image of the plane.
+  double apply(int plane, const float* field, float* image) const noexcept;
 
  private:
-  enum Colour { red = 0, black = 1 };
-  /// The cells of one colour in row i,j: where they and their neighbours along z begin, and their number.
-  struct ColouredRow {
-    std::size_t own, below, above;
-    int parity, count;
-  };
-
-  /// Kernels run over whole vectors of four; half a row has room for that.
-  static constexpr int padded(int cells_of_a_colour) { return (cells_of_a_colour + 3) / 4 * 4; }
-  std::size_t row(int i, int j) const { return (std::size_t(i + 1) * (cells_[1] + 2) + (j + 1)) * 2 * half_; }
-  std::size_t at(int i, int j, int k) const { return row(i, j) + (k & 1) * half_ + ((k + 2) >> 1); }
-  ColouredRow coloured_row(int i, int j, Colour) const noexcept;
+  struct Stencil;
+  template <class Kernel>
+  void for_each_row(int plane, Colour, const float* field, Kernel&& kernel) const noexcept;
   void relax(int plane, Colour) noexcept;
   void begin_with_red(int plane) noexcept;
+  void wrap(int plane) noexcept;
   void add_correction(int plane, const MultigridLevel& coarse, std::array<int, 3> ratio) noexcept;
-  void add_residual(int i, int j, Colour, int ratio, float* sums) const noexcept;
-  void fill_ghost_cells(int i, int j) noexcept;
-  void fill_ghost_rows(int plane) noexcept;
-  void fill_ghost_planes() noexcept;
+  void add_residual(int plane, Colour, std::array<int, 3> ratio) noexcept;
+  void restrict_residual(int plane, MultigridLevel& coarse, std::array<int, 3> ratio) noexcept;
 
-  std::array<int, 3> cells_;
-  std::array<bool, 3> wraps_;   // periodic with more than one cell
-  bool seam_;                   // some periodic direction is odd: cells of one colour meet there
-  std::size_t half_;            // length of half a row, ghosts and padding included
+  SplitGrid at_;
   std::array<std::vector<float>, 3> coupling_;
   std::vector<float> inverse_diagonal_, x_, right_;   // zero on padding, so that kernels may run over it
-  std::vector<float> coarse_row_;                     // one row of the next coarser level in natural order
+  std::vector<float> aggregates_;                     // a plane of the next coarser level, its rows in natural order
+  PlaneSums sums_;
 };
 
 }   // namespace bedload

@@ -1,30 +1,41 @@
-// Conjugate gradients for -div(c grad p) = -rhs in double precision, preconditioned by one multigrid cycle in single.
+// Conjugate gradients for -div(c grad p) = -rhs in single precision, preconditioned by one multigrid cycle; the residual
+// that decides is found anew in double precision.
 #include "solver/fluid/pressure_projection.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <limits>
 #include <vector>
 
 #include "solver/fluid/boundaries.hpp"
+#include "solver/fluid/float_vectors.hpp"
 #include "solver/fluid/multigrid.hpp"
 #include "solver/fluid/rows.hpp"
+#include "solver/fluid/split_rows.hpp"
 #include "solver/fluid/wavefront.hpp"
 
 namespace bedload {
 namespace {
 
 constexpr int most_iterations = 200;
+constexpr double trusted_reduction = 1e-3;   // by which the recurrence of single precision follows the true residual
 
-/// w = c/h^2 on faces 0..n, zero on walls.
-void set_couplings(const StaggeredGrid& g, const FaceFields& coefficient, FaceFields& w) {
+/// w = c/h^2 on faces 0..n, zero on walls; returns the largest.
+double set_couplings(const StaggeredGrid& g, const FaceFields& coefficient, FaceFields& w) {
+  double largest = 0;
   for (int c = 0; c < 3; ++c) {
     const double per_h2 = 1 / (g.h[c] * g.h[c]);
     for_each_face_row(g, c, [&](std::size_t row, int length) {
-      for (std::size_t n = row; n < row + length; ++n) w.component(c)[n] = coefficient.component(c)[n] * per_h2;
+      const double* __restrict from = coefficient.component(c) + row;
+      double* __restrict to = w.component(c) + row;
+      for (int k = 0; k < length; ++k) {
+        to[k] = from[k] * per_h2;
+        largest = std::max(largest, to[k]);
+      }
     });
   }
   fill_face_ghosts(g, w);
+  return largest;
 }
 
 /// A p = -div(c grad p) on one row of cells; p has its ghosts filled wherever w is not zero.
@@ -38,133 +49,99 @@ void minus_divergence(const StaggeredGrid& g, const FaceFields& w, const double*
              (wz[k] * (p[k] - p[k - 1]) + wz[k + 1] * (p[k] - p[k + 1]));
 }
 
-double in_plane_order(const std::vector<double>& partial) noexcept {
-  double total = 0;
-  for (double plane : partial) total += plane;
-  return total;
-}
-
 }   // namespace
 
-/// Scratch of the solver. Each pass below goes once through memory and does all that its data allow.
+/// Scratch of the solver. Each pass below goes once through memory and does all that its data allow. Inside the
+/// conjugate gradients the matrix is in units of its largest coupling and the residual r in units of the first one.
 struct PressureSolver::Levels {
   explicit Levels(const StaggeredGrid& g)
       : grid(g),
         multigrid(g),
+        at(multigrid.layout()),
         couplings(g),
-        residual(g),
-        direction(g),
-        image(g),
-        partial(g.cells[0]),
-        row_of_z(g.cells[2]) {}
+        direction(at.size()),
+        image(at.size()),
+        sums(g.cells[0]),
+        row(g.cells[2]),
+        float_row(g.cells[2]) {}
 
-  /// r = -(rhs - mean) - A p; returns |rhs - mean| and |r|.
-  std::pair<double, double> begin(const Field<Centre>& rhs, Field<Centre>& p) {
-    const double mean = sum_over_cells(grid, [&](std::size_t n) { return rhs[n]; }) / grid.cell_count();
+  double mean(const Field<Centre>& f) const {
+    return sum_over_cells(grid, [&](std::size_t n) { return f[n]; }) / grid.cell_count();
+  }
+
+  /// r = -(rhs - mean) - A p in double precision, in units of 1/scale; returns |r|.
+  double find_residual(const Field<Centre>& rhs, double mean_rhs, Field<Centre>& p, double scale) {
     fill_centre_ghosts(grid, p);
-    std::fill(direction.values.begin(), direction.values.end(), 0.0);
-    for_each_cell_row(grid, [&](std::size_t row, int length) {
-      minus_divergence(grid, couplings, p.data(), row, &image[row]);
-      for (std::size_t n = row; n < row + length; ++n) residual[n] = (mean - rhs[n]) - image[n];
-    });
-    const double rhs2 = sum_over_cells(grid, [&](std::size_t n) { return (rhs[n] - mean) * (rhs[n] - mean); });
-    const double r2 = sum_over_cells(grid, [&](std::size_t n) { return residual[n] * residual[n]; });
-    return {std::sqrt(rhs2), std::sqrt(r2)};
-  }
-
-  /// r.z with z the preconditioned residual.
-  double precondition(double scale) noexcept {
-    for (int i = 0; i < grid.cells[0]; ++i)
-      for (int j = 0; j < grid.cells[1]; ++j)
-        multigrid.set_right_hand_side(i, j, &residual[grid.index(i, j, 0)], scale);
-    multigrid.cycle();
+    float* r = multigrid.right_hand_side();
     for (int i = 0; i < grid.cells[0]; ++i) {
       LaneSum sum;
       for (int j = 0; j < grid.cells[1]; ++j) {
-        const double* r = &residual[grid.index(i, j, 0)];
-        multigrid.get_solution(i, j, row_of_z.data());
-        sum.add_row(grid.cells[2], [&](int k) { return r[k] * row_of_z[k]; });
+        const std::size_t first = grid.index(i, j, 0);
+        minus_divergence(grid, couplings, p.data(), first, row.data());
+        for (int k = 0; k < grid.cells[2]; ++k) row[k] = (mean_rhs - rhs[first + k]) - row[k];
+        sum.add_row(grid.cells[2], [&](int k) { return row[k] * row[k]; });
+        split_row(row.data(), scale, grid.cells[2], r + at.at(i, j, 0), r + at.at(i, j, 1));
       }
-      partial[i] = sum.value();
+      sums[i] = sum.value();
     }
-    return in_plane_order(partial);
+    return std::sqrt(sums.value());
   }
 
-  /// d = z + beta d, then A d; returns d.Ad.
-  double advance_direction(double beta) noexcept {
+  /// p += step d on one row of cells.
+  void add_direction(int i, int j, double step, Field<Centre>& p) noexcept {
+    join_row(&direction[at.at(i, j, 0)], &direction[at.at(i, j, 1)], grid.cells[2], float_row.data());
+    double* __restrict x = &p[grid.index(i, j, 0)];
+    const float* __restrict d = float_row.data();
+    for (int k = 0; k < grid.cells[2]; ++k) x[k] += step * d[k];
+  }
+
+  /// p += step d for the old d, then d = z + beta d and A d; returns d.Ad.
+  double advance_direction(double beta, double step, Field<Centre>& p) noexcept {
+    const float keep = static_cast<float>(beta);
     wavefront(
-        grid.cells[0], [&] { wrap_planes(direction); },
+        grid.cells[0], [&] { at.wrap_planes(direction.data()); },
         [&](int i) {
-          for (int j = 0; j < grid.cells[1]; ++j) {
-            double* __restrict d = &direction[grid.index(i, j, 0)];
-            multigrid.get_solution(i, j, row_of_z.data());
-            for (int k = 0; k < grid.cells[2]; ++k) d[k] = row_of_z[k] + beta * d[k];
-          }
-          wrap_rows(direction, i);
+          for (int j = 0; step != 0 && j < grid.cells[1]; ++j) add_direction(i, j, step, p);
+          float* __restrict d = &direction[at.row(i, 0)];
+          const float* __restrict z = multigrid.solution() + at.row(i, 0);
+          for (int m = 0; m < at.plane_of_rows(); ++m) d[m] = z[m] + keep * d[m];
+          at.wrap_cells(direction.data(), i);
+          at.wrap_rows(direction.data(), i);
         },
-        [&](int i) {
-          LaneSum sum;
-          for (int j = 0; j < grid.cells[1]; ++j) {
-            const std::size_t row = grid.index(i, j, 0);
-            const double *d = &direction[row], *ad = &image[row];
-            minus_divergence(grid, couplings, direction.data(), row, &image[row]);
-            sum.add_row(grid.cells[2], [&](int k) { return d[k] * ad[k]; });
-          }
-          partial[i] = sum.value();
-        });
-    return in_plane_order(partial);
+        [&](int i) { sums[i] = multigrid.apply(i, direction.data(), image.data()); });
+    return sums.value();
   }
 
-  /// p += alpha d, r -= alpha A d; returns |r|.
-  double advance_solution(double alpha, Field<Centre>& p) noexcept {
+  /// r -= alpha A d; returns |r|.
+  double reduce_residual(double alpha) noexcept {
+    const float step = static_cast<float>(alpha);
     for (int i = 0; i < grid.cells[0]; ++i) {
-      LaneSum sum;
-      for (int j = 0; j < grid.cells[1]; ++j) {
-        const std::size_t row = grid.index(i, j, 0);
-        const double *d = &direction[row], *ad = &image[row];
-        double *x = &p[row], *r = &residual[row];
-        for (int k = 0; k < grid.cells[2]; ++k) {
-          x[k] += alpha * d[k];
-          r[k] -= alpha * ad[k];
-        }
-        sum.add_row(grid.cells[2], [&](int k) { return r[k] * r[k]; });
-      }
-      partial[i] = sum.value();
+      float* __restrict r = multigrid.right_hand_side() + at.row(i, 0);
+      const float* __restrict ad = &image[at.row(i, 0)];
+      for (int m = 0; m < at.plane_of_rows(); ++m) r[m] -= step * ad[m];
+      DotProduct sum;
+      sum.add(at.plane_of_rows(), r, r);
+      sums[i] = sum.value();
     }
-    return std::sqrt(in_plane_order(partial));
+    return std::sqrt(sums.value());
   }
 
-  /// Periodic neighbours of one plane's rows and cells; beyond walls nothing couples.
-  void wrap_rows(Field<Centre>& f, int i) noexcept {
-    const int ny = grid.cells[1], nz = grid.cells[2];
-    for (int j = 0; grid.periodic(2) && j < ny; ++j) {
-      f[grid.index(i, j, -1)] = f[grid.index(i, j, nz - 1)];
-      f[grid.index(i, j, nz)] = f[grid.index(i, j, 0)];
-    }
-    if (!grid.periodic(1)) return;
-    std::copy_n(&f[grid.index(i, ny - 1, 0)], nz, &f[grid.index(i, -1, 0)]);
-    std::copy_n(&f[grid.index(i, 0, 0)], nz, &f[grid.index(i, ny, 0)]);
-  }
-  void wrap_planes(Field<Centre>& f) noexcept {
-    if (!grid.periodic(0)) return;
-    const int nx = grid.cells[0];
-    const std::size_t plane = grid.index(1, 0, 0) - grid.index(0, 0, 0);
-    std::copy_n(&f[grid.index(nx - 1, -1, -1)], plane, &f[grid.index(-1, -1, -1)]);
-    std::copy_n(&f[grid.index(0, -1, -1)], plane, &f[grid.index(nx, -1, -1)]);
-  }
   void finish(Field<Centre>& p) {
-    const double mean = sum_over_cells(grid, [&](std::size_t n) { return p[n]; }) / grid.cell_count();
-    for_each_cell_row(grid, [&](std::size_t row, int length) {
-      for (std::size_t n = row; n < row + length; ++n) p[n] -= mean;
+    const double shift = mean(p);
+    for_each_cell_row(grid, [&](std::size_t first, int length) {
+      for (std::size_t n = first; n < first + length; ++n) p[n] -= shift;
     });
     fill_centre_ghosts(grid, p);
   }
 
   StaggeredGrid grid;
   Multigrid multigrid;
+  const SplitGrid at;
   FaceFields couplings;
-  Field<Centre> residual, direction, image;
-  std::vector<double> partial, row_of_z;   // sums per x-plane; one row of the preconditioned residual
+  std::vector<float> direction, image;   // d and A d, in the layout of the multigrid
+  PlaneSums sums;
+  std::vector<double> row;
+  std::vector<float> float_row;
 };
 
 PressureSolver::PressureSolver(const StaggeredGrid& g) : levels_(std::make_unique<Levels>(g)) {}
@@ -173,18 +150,36 @@ PressureSolver::~PressureSolver() = default;
 PressureSolve PressureSolver::solve(const FaceFields& coefficient, const Field<Centre>& rhs, Field<Centre>& p,
                                     double relative, double absolute) {
   Levels& s = *levels_;
-  set_couplings(s.grid, coefficient, s.couplings);
-  auto [rhs_norm, norm] = s.begin(rhs, p);
-  const double target = std::max(relative * rhs_norm, absolute * std::sqrt(double(s.grid.cell_count())));
-  const double scale = 1 / norm;
+  const StaggeredGrid& g = s.grid;
+  const double largest = set_couplings(g, coefficient, s.couplings);
+  const double mean_rhs = s.mean(rhs);
+  const double rhs_norm =
+      std::sqrt(sum_over_cells(g, [&](std::size_t n) { return (rhs[n] - mean_rhs) * (rhs[n] - mean_rhs); }));
+  const double target = std::max(relative * rhs_norm, absolute * std::sqrt(double(g.cell_count())));
 
   PressureSolve report;
-  if (norm > target) s.multigrid.set_couplings(s.couplings);
-  for (double rz = 0; norm > target && report.iterations < most_iterations; ++report.iterations) {
-    const double rz_before = rz;
-    rz = s.precondition(scale);
-    const double dad = s.advance_direction(report.iterations == 0 ? 0 : rz / rz_before);
-    norm = s.advance_solution(rz / dad, p);
+  double norm = s.find_residual(rhs, mean_rhs, p, 1);
+  if (norm > target) {
+    const double matrix_scale = largest > 0 ? 1 / largest : 1, scale = 1 / norm;
+    s.multigrid.set_couplings(s.couplings, matrix_scale);
+    std::fill(s.direction.begin(), s.direction.end(), 0.0f);
+    s.find_residual(rhs, mean_rhs, p, scale);
+    double rz_before = std::numeric_limits<double>::infinity();
+    while (norm > target && report.iterations < most_iterations) {
+      const double goal = std::max(target, trusted_reduction * norm);
+      double step = 0;
+      do {
+        const double rz = s.multigrid.cycle();
+        const double dad = s.advance_direction(rz / rz_before, step, p);
+        norm = s.reduce_residual(rz / dad) / scale;
+        step = rz / dad * matrix_scale / scale;
+        rz_before = rz;
+        ++report.iterations;
+      } while (norm > goal && report.iterations < most_iterations);
+      for (int i = 0; i < g.cells[0]; ++i)
+        for (int j = 0; j < g.cells[1]; ++j) s.add_direction(i, j, step, p);
+      norm = s.find_residual(rhs, mean_rhs, p, scale);
+    }
   }
   s.finish(p);
   report.residual = rhs_norm > 0 ? norm / rhs_norm : norm;

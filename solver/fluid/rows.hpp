@@ -46,6 +46,21 @@ class LaneSum {
   double lanes_[8] = {};
 };
 
+/// Partial sums of x-planes, found in any order, added in plane order.
+class PlaneSums {
+ public:
+  explicit PlaneSums(int planes) : partial_(planes) {}
+  double& operator[](int plane) { return partial_[plane]; }
+  double value() const noexcept {
+    double total = 0;
+    for (double plane : partial_) total += plane;
+    return total;
+  }
+
+ private:
+  std::vector<double> partial_;
+};
+
 /// Sum over all cells of term(index): one partial sum per x-plane, added in plane order.
 template <class Term>
 double sum_over_cells(const StaggeredGrid& g, Term&& term) {

@@ -25,20 +25,20 @@ struct Line {
 };
 
 TEST(Wavefront, GivesTheBitsOfOneFullSweepAfterTheOther) {
-  for (int n = 1; n <= 9; ++n) {
+  for (int n = 1; n <= 13; ++n) {
     Line plain(n), fused(n);
-    for (int stage = 0; stage < 3; ++stage) {
-      for (int i = 0; i < n; ++i) plain.sweep(i, stage % 2, 0.5 + stage);
+    for (int number = 0; number < 5; ++number) {
+      for (int i = 0; i < n; ++i) plain.sweep(i, number % 2, 0.5 + number);
       plain.refresh();
     }
+    const auto stage = [&](int number) { return [&, number](int i) { fused.sweep(i, number % 2, 0.5 + number); }; };
     wavefront(
-        n, [&] { fused.refresh(); }, [&](int i) { fused.sweep(i, 0, 0.5); }, [&](int i) { fused.sweep(i, 1, 1.5); },
-        [&](int i) { fused.sweep(i, 0, 2.5); });
-    EXPECT_EQ(plain, fused) << n << " planes, three stages";
+        n, [&] { fused.refresh(); }, stage(0), stage(1), stage(2), stage(3), stage(4));
+    EXPECT_EQ(plain, fused) << n << " planes, five stages";
 
     Line plain_pair(n), fused_pair(n);
-    for (int stage = 0; stage < 2; ++stage) {
-      for (int i = 0; i < n; ++i) plain_pair.sweep(i, stage, 0.5 + stage);
+    for (int number = 0; number < 2; ++number) {
+      for (int i = 0; i < n; ++i) plain_pair.sweep(i, number, 0.5 + number);
       plain_pair.refresh();
     }
     wavefront(
