@@ -44,7 +44,7 @@ void momentum_transport(benchmark::State& state) {
   const FaceFields flux = random_velocity(g), one(g, 1);
   FaceFields u = flux;
   TransportScratch scratch;
-  for (auto _ : state) transport(g, flux, one, one, 1e-12, u, u, scratch);
+  for (auto _ : state) transport(g, flux, one, one, 1e-12, flux, u, scratch);
   report_cells(state, g);
 }
 

@@ -44,33 +44,51 @@ void row_of_sides(const StaggeredGrid& g, int c, int t, std::size_t upper, int l
   }
 }
 
-void subtract_difference(const double* __restrict low, const double* __restrict high, double factor, int length,
-                         double* __restrict momentum) noexcept {
-  for (int k = 0; k < length; ++k) momentum[k] -= factor * (high[k] - low[k]);
+/// The sides of a row of control volumes along x, y and z; the upper side along z is the next one's lower side.
+struct Sides {
+  double* __restrict x_low;   // becomes x_high, for the next plane
+  const double *x_high, *y_low, *y_high, *z;
+};
+
+/// u = [eps u - dt sum over sides of (out - in)/h]/eps' on a row of faces.
+void advance_row(const Sides& side, Vec3 dt_per_h, const double* __restrict before, const double* __restrict after,
+                 int length, double* __restrict u) noexcept {
+  double* __restrict x_low = side.x_low;
+  const double* __restrict x_high = side.x_high;
+  for (int k = 0; k < length; ++k) {
+    double momentum = before[k] * u[k];
+    momentum -= dt_per_h.x * (x_high[k] - x_low[k]);
+    momentum -= dt_per_h.y * (side.y_high[k] - side.y_low[k]);
+    momentum -= dt_per_h.z * (side.z[k + 1] - side.z[k]);
+    u[k] = momentum / after[k];
+    x_low[k] = x_high[k];
+  }
 }
 
-/// Takes from `momentum` of component c what leaves through the sides along t in dt.
-void carry_along(const StaggeredGrid& g, int c, int t, const double* flux, const double* correction,
-                 const double* velocity, double dt, double* momentum, std::vector<double>& rows) noexcept {
-  double* low = rows.data();
-  double* high = low + rows.size() / 2;
-  const double factor = dt / g.h[t];
-  const int k0 = c == 2 ? g.first_face(2) : 0, length = g.cells[2] - k0;
-  if (t == 2) {
-    for_each_face_row(g, c, [&](std::size_t row, int faces) {
-      row_of_sides(g, c, t, row, faces + 1, flux, correction, velocity, low);
-      subtract_difference(low, low + 1, factor, faces, momentum + row);
-    });
-    return;
-  }
-  const int other = 1 - t;
-  for (int m = c == other ? g.first_face(c) : 0; m < g.cells[other]; ++m) {
-    const int first = c == t ? g.first_face(c) : 0;
-    std::size_t row = g.index(0, 0, k0) + m * g.stride(other) + first * g.stride(t);
-    row_of_sides(g, c, t, row, length, flux, correction, velocity, low);
-    for (int i = first; i < g.cells[t]; ++i, row += g.stride(t), std::swap(low, high)) {
-      row_of_sides(g, c, t, row + g.stride(t), length, flux, correction, velocity, high);
-      subtract_difference(low, high, factor, length, momentum + row);
+/// Carries component c in one pass: each side is found once and kept until both of its volumes have met it, along x for a
+/// plane, along y for a row.
+void carry(const StaggeredGrid& g, int c, const FaceFields& flux, const double* correction, const double* before,
+           const double* after, const double* carried, double dt, double* velocity,
+           std::vector<double>& sides) noexcept {
+  const int i0 = c == 0 ? g.first_face(0) : 0, j0 = c == 1 ? g.first_face(1) : 0, k0 = c == 2 ? g.first_face(2) : 0;
+  const int length = g.cells[2] - k0;
+  const std::size_t width = g.cells[2] + 1;
+  double* const x_low = sides.data();
+  double *x_high = x_low + width * g.cells[1], *y_low = x_high + width, *y_high = y_low + width, *z = y_high + width;
+  const auto find = [&](int t, std::size_t upper, int count, double* out) {
+    row_of_sides(g, c, t, upper, count, flux.component(t), correction, carried, out);
+  };
+  for (int j = j0; j < g.cells[1]; ++j) find(0, g.index(i0, j, k0), length, x_low + j * width);
+  for (int i = i0; i < g.cells[0]; ++i) {
+    find(1, g.index(i, j0, k0), length, y_low);
+    for (int j = j0; j < g.cells[1]; ++j) {
+      const std::size_t row = g.index(i, j, k0);
+      find(0, row + g.stride(0), length, x_high);
+      find(1, row + g.stride(1), length, y_high);
+      find(2, row, length + 1, z);
+      advance_row({x_low + j * width, x_high, y_low, y_high, z}, {dt / g.h.x, dt / g.h.y, dt / g.h.z}, before + row,
+                  after + row, length, velocity + row);
+      std::swap(y_low, y_high);
     }
   }
 }
@@ -93,8 +111,8 @@ void find_divergence(const StaggeredGrid& g, const FaceFields& flux, Field<Centr
 
 void prepare(const StaggeredGrid& g, TransportScratch& scratch) {
   if (scratch.correction.cells == g.cells) return;
-  scratch.divergence = scratch.correction = scratch.momentum = Field<Centre>(g);
-  scratch.rows.assign(2 * (g.cells[2] + 2 * StaggeredGrid::ghosts), 0.0);
+  scratch.divergence = scratch.correction = Field<Centre>(g);
+  scratch.sides.assign((g.cells[2] + 1) * (g.cells[1] + 4), 0.0);
 }
 
 }   // namespace
@@ -104,19 +122,11 @@ void transport(const StaggeredGrid& g, const FaceFields& flux, const FaceFields&
                TransportScratch& scratch) {
   prepare(g, scratch);
   find_divergence(g, flux, scratch.divergence);
-  double *momentum = scratch.momentum.data(), *correction = scratch.correction.data();
+  double* correction = scratch.correction.data();
   for (int c = 0; c < 3; ++c) {
     const double *before = void_before.component(c), *after = void_after.component(c);
-    double* u = velocity.component(c);
     close_flux(g, c, scratch.divergence, before, after, dt, correction, scratch.sums);
-    for_each_face_row(g, c, [&](std::size_t row, int length) {
-      for (std::size_t n = row; n < row + length; ++n) momentum[n] = before[n] * u[n];
-    });
-    for (int t = 0; t < 3; ++t)
-      carry_along(g, c, t, flux.component(t), correction, carried.component(c), dt, momentum, scratch.rows);
-    for_each_face_row(g, c, [&](std::size_t row, int length) {
-      for (std::size_t n = row; n < row + length; ++n) u[n] = momentum[n] / after[n];
-    });
+    carry(g, c, flux, correction, before, after, carried.component(c), dt, velocity.component(c), scratch.sides);
   }
 }
 

@@ -7,15 +7,15 @@ namespace bedload {
 
 /// Scratch of transport(), kept between calls to save allocation.
 struct TransportScratch {
-  Field<Centre> divergence, correction, momentum;
-  std::vector<double> rows, sums;
+  Field<Centre> divergence, correction;
+  std::vector<double> sides, sums;
 };
 
 /// u_f = [eps_f u_f - dt sum F carried_side/h]/eps'_f on every unknown face, with F the volume flux [m/s] whose divergence
 /// is -d(eps)/dt, averaged to the control volume of each face and corrected along the face's own direction so that a
 /// uniform flow stays uniform and momentum is conserved (docs/physics_fluid.md, F10 to F12). `carried` [m/s] is the flow
 /// that F belongs to, that of the start of the step, taken at sides by van Leer's TVD limiter; `velocity` [m/s] has all that
-/// else changed it in the step, and may be the same. `flux` has filled ghosts and is zero on walls; the void fractions are
+/// else changed it in the step, and is another field. `flux` has filled ghosts and is zero on walls; the void fractions are
 /// read on faces 0..n, without ghosts. `carried` has both ghost layers filled; `velocity` has none on return. First order in
 /// time, TVD for CFL <= 0.5.
 void transport(const StaggeredGrid&, const FaceFields& flux, const FaceFields& void_before,
