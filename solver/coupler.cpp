@@ -15,7 +15,6 @@ Coupler::Parts::Parts(const Scene& given)
       before(grid),
       after(grid),
       acceleration(grid),
-      laplace(grid),
       impulse(grid),
       flux(grid),
       solid_flux(grid),

@@ -52,7 +52,7 @@ struct Coupler::Parts {
   std::vector<double> diameters;
   Stencils stencils;
   VoidFraction before, after;
-  FaceFields acceleration, laplace, impulse, flux;
+  FaceFields acceleration, impulse, flux;
   SolidFlux solid_flux;
   Woven woven, woven_too;
   MixtureResponse response;

@@ -15,12 +15,13 @@ constexpr double pressure_tolerance = 1e-4;
 constexpr double least_divergence = 1e-9;   // volume change per step that is not worth an iteration
 
 bool all_finite(const State& state) {
-  bool finite = true;
-  for (int c = 0; c < 3; ++c)
-    for (const double *v = state.fluid.velocity.component(c), *end = v + state.fluid.velocity.x.values.size(); v != end;
-         ++v)
-      finite &= std::isfinite(*v);
-  for (const double q : state.fluid.pressure.values) finite &= std::isfinite(q);
+  LaneSum nothing;   // no number, if one is not finite
+  const auto add = [&](const std::vector<double>& all) {
+    nothing.add_row(int(all.size()), [&](int n) { return 0 * all[n]; });
+  };
+  add(state.fluid.velocity.x.values), add(state.fluid.velocity.y.values), add(state.fluid.velocity.z.values);
+  add(state.fluid.pressure.values);
+  bool finite = nothing.value() == 0;
   const Grains& g = state.grains;
   for (const auto* each : {&g.velocity, &g.spin, &g.mean_contact_force, &g.mean_contact_torque})
     for (const Vec3& v : *each) finite &= std::isfinite(norm2(v));
@@ -78,9 +79,11 @@ void Coupler::Parts::kick_mixture(State& state, double dt) {
     const double *cf = response.fluid.component(c), *cp = response.grains.component(c),
                  *locked = response.locked_exchange.component(c), *eps = before.face.component(c),
                  *phi = response.mobile_fraction.component(c);
-    on_fixed[c] = sum_over_faces(
-        grid, c, [&](std::size_t n) { return -k[n] * (locked[n] * cf[n] + (model_b() ? 0 : 1 - eps[n] - phi[n])); });
-    for_each_unknown_face(grid, c, [&](std::size_t n) {
+    if (state.grains.size() > 0)
+      on_fixed[c] = sum_over_faces(grid, c, [=, b = model_b()](std::size_t n) {
+        return -k[n] * (locked[n] * cf[n] + (b ? 0 : 1 - eps[n] - phi[n]));
+      });
+    for_each_unknown_face(grid, c, [=](std::size_t n) {
       u[n] -= dt * cf[n] * k[n];
       k[n] *= cp[n];
     });

@@ -26,18 +26,12 @@ void Coupler::Parts::accelerate_faces(State& state) {
   fill_velocity_ghosts(grid, u, state.search.lid_speed);
   carried = u;
   fill_centre_ghosts(grid, state.fluid.pressure);
-  gradient(grid, state.fluid.pressure, acceleration);
-  laplacian(grid, u, laplace);
+  bedload::acceleration(grid, state.fluid.pressure, u, scene.bed.fluid.viscosity, drive(state), acceleration);
   deposit_solid_flux(grid, state.grains, stencils, solid_flux, smoothing);
-  const double nu = scene.bed.fluid.viscosity;
   for (int c = 0; c < 3; ++c) {
-    double *a = acceleration.component(c), *f = flux.component(c);
-    const double *lap = laplace.component(c), *eps = before.face.component(c), *v = u.component(c);
-    const double g = drive(state)[c];
-    for_each_unknown_face(grid, c, [&](std::size_t n) {
-      a[n] = -a[n] + nu * lap[n] + g;
-      f[n] = eps[n] * v[n];
-    });
+    double* f = flux.component(c);
+    const double *eps = before.face.component(c), *v = u.component(c);
+    for_each_unknown_face(grid, c, [=](std::size_t n) { f[n] = eps[n] * v[n]; });
     for_each_face_within(grid, c, solid_flux.reach, [&, j = solid_flux.component(c)](std::size_t n) { f[n] += j[n]; });
   }
   if (turbulence) {   // a bed is as rough as its grains are large
@@ -47,12 +41,7 @@ void Coupler::Parts::accelerate_faces(State& state) {
   }
   clear_walls(grid, acceleration);
   fill_face_ghosts(grid, flux);
-  divergence(grid, flux, rhs);
-  double largest = 0;   // per time; choose_step makes it per step
-  for_each_cell_row(grid, [&](std::size_t row, int length) {
-    for (std::size_t n = row; n < row + length; ++n) largest = std::max(largest, std::abs(rhs[n]));
-  });
-  health.divergence_left = largest;
+  health.divergence_left = largest_divergence(grid, flux);   // per time; choose_step makes it per step
   book_wall_shear(u);
   const double rho = scene.bed.fluid.density;
   const Vec3 box = grid.length();

@@ -56,10 +56,11 @@ void Coupler::Parts::shorten(double& step, double limit, StepLimit by) {
 double Coupler::Parts::courant_rate(const FaceFields& velocity) const {
   double rate = 0;
   for (int c = 0; c < 3; ++c) {
-    double fastest = 0;
-    for_each_unknown_face(
-        grid, c, [&, v = velocity.component(c)](std::size_t n) { fastest = std::max(fastest, std::abs(v[n])); });
-    rate += fastest / grid.h[c];
+    LaneMax fastest;
+    for_each_face_row(grid, c, [&, u = velocity.component(c)](std::size_t row, int length) {
+      fastest.add_row(length, [v = u + row](int k) { return std::abs(v[k]); });
+    });
+    rate += fastest.value() / grid.h[c];
   }
   return rate;
 }

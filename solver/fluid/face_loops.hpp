@@ -16,14 +16,15 @@ inline void for_each_unknown_face(const StaggeredGrid& g, int c, Visit&& visit) 
 /// Sum of value(padded index) over the unknown faces normal to c: one partial sum per x-plane, added in plane order.
 template <class Value>
 inline double sum_over_faces(const StaggeredGrid& g, int c, Value&& value) noexcept {
+  const int k = c == 2 ? g.first_face(2) : 0;
   double total = 0;
   for (int i = c == 0 ? g.first_face(0) : 0; i < g.cells[0]; ++i) {
-    double plane = 0;
+    LaneSum plane;
     for (int j = c == 1 ? g.first_face(1) : 0; j < g.cells[1]; ++j) {
-      const std::size_t row = g.index(i, j, 0);
-      for (int k = c == 2 ? g.first_face(2) : 0; k < g.cells[2]; ++k) plane += value(row + k);
+      const std::size_t row = g.index(i, j, k);
+      plane.add_row(g.cells[2] - k, [&](int m) { return value(row + m); });
     }
-    total += plane;
+    total += plane.value();
   }
   return total;
 }

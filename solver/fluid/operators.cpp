@@ -1,6 +1,8 @@
 // Central differences of second order, row by row along z.
 #include "solver/fluid/operators.hpp"
 
+#include <cmath>
+
 #include "solver/fluid/face_loops.hpp"
 
 namespace bedload {
@@ -31,6 +33,19 @@ void divergence(const StaggeredGrid& g, const FaceFields& flux, Field<Centre>& o
   });
 }
 
+double largest_divergence(const StaggeredGrid& g, const FaceFields& flux) {
+  const std::ptrdiff_t sx = g.stride(0), sy = g.stride(1);
+  const double per_x = 1 / g.h.x, per_y = 1 / g.h.y, per_z = 1 / g.h.z;
+  LaneMax largest;
+  for_each_cell_row(g, [&](std::size_t row, int length) {
+    const double *fx = flux.x.data() + row, *fy = flux.y.data() + row, *fz = flux.z.data() + row;
+    largest.add_row(length, [=](int k) {
+      return std::abs((fx[k + sx] - fx[k]) * per_x + (fy[k + sy] - fy[k]) * per_y + (fz[k + 1] - fz[k]) * per_z);
+    });
+  });
+  return largest.value();
+}
+
 void laplacian(const StaggeredGrid& g, const FaceFields& velocity, FaceFields& out) {
   const std::ptrdiff_t sx = g.stride(0), sy = g.stride(1);
   const double ax = 1 / (g.h.x * g.h.x), ay = 1 / (g.h.y * g.h.y), az = 1 / (g.h.z * g.h.z);
@@ -41,6 +56,28 @@ void laplacian(const StaggeredGrid& g, const FaceFields& velocity, FaceFields& o
       for (int k = 0; k < length; ++k)
         lap[k] = ((u[k + sx] - u[k]) - (u[k] - u[k - sx])) * ax + ((u[k + sy] - u[k]) - (u[k] - u[k - sy])) * ay +
                  ((u[k + 1] - u[k]) - (u[k] - u[k - 1])) * az;
+    });
+  }
+  clear_walls(g, out);
+}
+
+void acceleration(const StaggeredGrid& g, const Field<Centre>& q, const FaceFields& velocity, double viscosity,
+                  Vec3 drive, FaceFields& out) {
+  const std::ptrdiff_t sx = g.stride(0), sy = g.stride(1);
+  const double ax = 1 / (g.h.x * g.h.x), ay = 1 / (g.h.y * g.h.y), az = 1 / (g.h.z * g.h.z);
+  for (int c = 0; c < 3; ++c) {
+    const std::ptrdiff_t s = g.stride(c);
+    const double per_h = 1 / g.h[c], along = drive[c];
+    for_each_face_row(g, c, [&](std::size_t row, int length) {
+      const double* __restrict u = velocity.component(c) + row;
+      const double* __restrict value = q.data() + row;
+      double* __restrict a = out.component(c) + row;
+      for (int k = 0; k < length; ++k) {
+        const double lap = ((u[k + sx] - u[k]) - (u[k] - u[k - sx])) * ax +
+                           ((u[k + sy] - u[k]) - (u[k] - u[k - sy])) * ay +
+                           ((u[k + 1] - u[k]) - (u[k] - u[k - 1])) * az;
+        a[k] = -((value[k] - value[k - s]) * per_h) + viscosity * lap + along;
+      }
     });
   }
   clear_walls(g, out);

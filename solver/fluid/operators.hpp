@@ -11,6 +11,13 @@ void gradient(const StaggeredGrid&, const Field<Centre>& q, FaceFields& out);
 /// div F on every cell; faces on walls count with the value they hold (zero for a flux). Reads face n.
 void divergence(const StaggeredGrid&, const FaceFields& flux, Field<Centre>& out);
 
+/// Largest |div F| of all cells.
+double largest_divergence(const StaggeredGrid&, const FaceFields& flux);
+
+/// -grad q + viscosity lap u + drive on every unknown face; zero on walls. Reads one filled ghost layer of both.
+void acceleration(const StaggeredGrid&, const Field<Centre>& q, const FaceFields& velocity, double viscosity,
+                  Vec3 drive, FaceFields& out);
+
 /// Laplacian of each component on every unknown face; zero on walls. Reads one filled ghost layer.
 void laplacian(const StaggeredGrid&, const FaceFields& velocity, FaceFields& out);
 

@@ -18,7 +18,7 @@ namespace bedload {
 namespace {
 
 constexpr int most_iterations = 200;
-constexpr double trusted_reduction = 1e-3;   // by which the recurrence of single precision follows the true residual
+constexpr double trusted_reduction = 1e-4;   // over which the recurrence of single precision follows the true residual
 
 /// w = c/h^2 on faces 0..n, zero on walls; returns the largest.
 double set_couplings(const StaggeredGrid& g, const FaceFields& coefficient, FaceFields& w) {
@@ -52,7 +52,7 @@ void minus_divergence(const StaggeredGrid& g, const FaceFields& w, const double*
 }   // namespace
 
 /// Scratch of the solver. Each pass below goes once through memory and does all that its data allow. Inside the
-/// conjugate gradients the matrix is in units of its largest coupling and the residual r in units of the first one.
+/// conjugate gradients the matrix is in units of its largest coupling and the residual r in units of the right-hand side's norm.
 struct PressureSolver::Levels {
   explicit Levels(const StaggeredGrid& g)
       : grid(g),
@@ -158,12 +158,12 @@ PressureSolve PressureSolver::solve(const FaceFields& coefficient, const Field<C
   const double target = std::max(relative * rhs_norm, absolute * std::sqrt(double(g.cell_count())));
 
   PressureSolve report;
-  double norm = s.find_residual(rhs, mean_rhs, p, 1);
+  const double scale = rhs_norm > 0 ? 1 / rhs_norm : 1;
+  double norm = s.find_residual(rhs, mean_rhs, p, scale);
   if (norm > target) {
-    const double matrix_scale = largest > 0 ? 1 / largest : 1, scale = 1 / norm;
+    const double matrix_scale = largest > 0 ? 1 / largest : 1;
     s.multigrid.set_couplings(s.couplings, matrix_scale);
     std::fill(s.direction.begin(), s.direction.end(), 0.0f);
-    s.find_residual(rhs, mean_rhs, p, scale);
     double rz_before = std::numeric_limits<double>::infinity();
     while (norm > target && report.iterations < most_iterations) {
       const double goal = std::max(target, trusted_reduction * norm);

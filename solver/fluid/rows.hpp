@@ -1,6 +1,8 @@
 // Loops over the grid in rows along z, the contiguous direction, and sums whose order never depends on the machine.
 #pragma once
 
+#include <algorithm>
+
 #include "solver/fluid/staggered_grid.hpp"
 
 namespace bedload {
@@ -41,6 +43,23 @@ class LaneSum {
   double value() const noexcept {
     return ((lanes_[0] + lanes_[4]) + (lanes_[1] + lanes_[5])) + ((lanes_[2] + lanes_[6]) + (lanes_[3] + lanes_[7]));
   }
+
+ private:
+  double lanes_[8] = {};
+};
+
+/// The largest of what is not a NaN, at least zero, in lanes that vectorise.
+class LaneMax {
+ public:
+  template <class Term>
+  void add_row(int length, Term&& term) noexcept {
+    const auto add = [&](int lane, double value) { lanes_[lane] = value > lanes_[lane] ? value : lanes_[lane]; };
+    int k = 0;
+    for (; k + 8 <= length; k += 8)
+      for (int lane = 0; lane < 8; ++lane) add(lane, term(k + lane));
+    for (int lane = 0; k < length; ++k, ++lane) add(lane, term(k));
+  }
+  double value() const noexcept { return *std::max_element(lanes_, lanes_ + 8); }
 
  private:
   double lanes_[8] = {};
