@@ -1,77 +1,122 @@
-// Speed of contacts and motion: grain-steps per second of a bed at rest and of one whose upper layers move.
+// Speed of contacts and motion, together and apart: a bed at rest, and one whose upper layers move.
+// 1 000 000 grains only when asked for: --benchmark_filter=million.
 #include <benchmark/benchmark.h>
 
-#include <map>
+#include <string_view>
 
-#include "solver/grains/bed_packing.hpp"
+#include "benchmarks/settled_bed.hpp"
+#include "solver/grains/contact_forces.hpp"
+#include "solver/grains/grain_motion.hpp"
 
 namespace bedload {
 namespace {
 
-/// d = 1 mm +-5 %, softened to 1 MPa; the box grows with the grains, so that every bed is about 6 d deep.
-BedScene bench_scene(std::uint64_t count) {
-  BedScene scene;
-  scene.fluid = {1000, 1e-5};
-  scene.grains = {1e-3, 3000, 0.05, 0.4, 0.6, 0.3, 1e6};
-  scene.source = {BedSource::Kind::poured, count, "", 1};
-  scene.length = {static_cast<double>(count) / 1500 * 20e-3, 12e-3, 13e-3};
-  scene.sides = {Side::periodic, Side::periodic, Side::wall};
-  scene.gravity = {0, 0, -9.81};
-  scene.dem_step = 0.2 * rayleigh_time(0.9e-3, 3000, 1e6, 0.3);
-  return scene;
+using namespace benchmarks;
+
+constexpr int substeps = 10;   // of a call, as in a coupled step
+constexpr int warm_calls = 100;
+
+void count_grain_steps(benchmark::State& run, std::size_t grains, int steps_per_iteration = 1) {
+  run.counters["grain_steps/s"] =
+      benchmark::Counter(double(grains) * steps_per_iteration, benchmark::Counter::kIsIterationInvariantRate);
 }
 
-struct Bed {
-  BedScene scene;
-  Grains grains;
-  ContactHistory contacts;
+/// Mean kinetic energy of translation of a grain, per (submerged weight x diameter) of the mean grain [-].
+double energy(const Grains& grains) {
+  double sum = 0, mass = 0;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const double m = grains.density[i] * sphere_volume(grains.diameter[i]);
+    sum += 0.5 * m * norm2(grains.velocity[i]), mass += m;
+  }
+  return sum / (mass * submerged_weight * grain_diameter);
+}
+
+/// The whole of it: 1000 steps to warm up, then as many calls as the benchmark is registered with: every run of it ends in
+/// the same state, which the counters describe.
+void advance_bed(benchmark::State& run, bool eroding) {
+  Bed bed = settled_bed(std::size_t(run.range(0)));
+  GrainDynamics dynamics(bed.scene);
+  const Drive drive = drive_of(bed, eroding);
+  GrainHealth health;
+  const auto advance = [&] {
+    health = dynamics.advance(bed.grains, bed.contacts, drive.drive(), bed.scene.dem_step, substeps, 0);
+  };
+  for (int call = 0; call < warm_calls; ++call) advance();
+  for (auto _ : run) advance();
+  const double n = double(bed.grains.size());
+  count_grain_steps(run, bed.grains.size(), substeps);
+  run.counters["contacts_per_grain"] =   // without walls
+      double(std::ranges::count_if(bed.contacts.higher, [&](std::uint32_t id) { return id < bed.grains.size(); })) / n;
+  run.counters["energy"] = energy(bed.grains);
+}
+
+/// The grains of a bed as the kernels see them, and its list.
+struct Workspace {
+  explicit Workspace(const Bed& bed) : list(bed.scene, nullptr, false), loads(bed.grains.size()) {
+    const Grains& g = bed.grains;
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      const double mass = g.density[i] * sphere_volume(g.diameter[i]);
+      bodies.push_back({g.position[i], 0.5 * g.diameter[i], g.velocity[i], 1 / mass, g.spin[i],
+                        1 / sphere_inertia(mass, g.diameter[i])});
+    }
+    list.rebuild(bodies, bed.scene.dem_step, bed.contacts);
+  }
+  NeighbourList list;
+  std::vector<Body> bodies;
+  std::vector<Load> loads;
 };
 
-/// Packed once for all runs.
-const Bed& settled_bed(std::uint64_t count) {
-  static std::map<std::uint64_t, Bed> beds;
-  auto [at, fresh] = beds.try_emplace(count);
-  Bed& bed = at->second;
-  if (!fresh) return bed;
-  bed.scene = bench_scene(count);
-  bed.grains = place_grains(bed.scene);
-  BedPacking packing(bed.scene);
-  while (!packing.advance(bed.grains, bed.contacts).settled) {
-  }
-  renumber_in_space(bed.scene, bed.grains, bed.contacts);
-  return bed;
+void contact_pass(benchmark::State& run) {
+  const Bed& bed = settled_bed(std::size_t(run.range(0)));
+  const HertzMindlin law(bed.scene.grains);
+  Workspace work(bed);
+  for (auto _ : run)
+    add_pair_forces(law, nullptr, work.list.box(), work.bodies, bed.scene.dem_step, work.list.pairs, work.loads);
+  count_grain_steps(run, work.bodies.size());
+  run.counters["listed_per_grain"] = double(work.list.pairs.size()) / double(work.bodies.size());
 }
 
-/// `shear`: push along x on grains in the top four diameters, as drag would give them [their weight].
-void advance_bed(benchmark::State& state, double shear) {
-  Bed bed = settled_bed(static_cast<std::uint64_t>(state.range(0)));
-  GrainDynamics dynamics(bed.scene);
-  double top = 0;
-  for (const Vec3& p : bed.grains.position) top = std::max(top, p.z);
-  std::vector<Vec3> push(bed.grains.size(), Vec3{0, 0, -6.54});
-  std::vector<double> relaxation(bed.grains.size(), 0.0);
-  for (std::size_t i = 0; i < bed.grains.size(); ++i) {
-    if (bed.grains.position[i].z < top - 4e-3) continue;
-    push[i].x = shear * 6.54;
-    relaxation[i] = 100;
-  }
-  constexpr int substeps = 10;
-  GrainHealth health;
-  const GrainDrive drive{.push = push, .relaxation = relaxation};
-  for (int warm = 0; warm < 100; ++warm)
-    dynamics.advance(bed.grains, bed.contacts, drive, bed.scene.dem_step, substeps, 0);
-  for (auto _ : state) health = dynamics.advance(bed.grains, bed.contacts, drive, bed.scene.dem_step, substeps, 0);
-  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * substeps * bed.grains.size()));
-  state.counters["contacts_per_grain"] = static_cast<double>(health.contacts) / static_cast<double>(bed.grains.size());
-  double speed = 0;
-  for (const Vec3& v : bed.grains.velocity) speed = std::max(speed, norm(v));
-  state.counters["fastest_m_per_s"] = speed;
+void motion(benchmark::State& run) {
+  const Bed& bed = settled_bed(std::size_t(run.range(0)));
+  Workspace work(bed);
+  std::vector<Load> sums(work.loads.size());
+  const std::vector<Vec3> push(work.loads.size());   // none: the grains stay
+  const std::vector<double> damp(work.loads.size(), 1.0);
+  for (auto _ : run) move_bodies(work.bodies, work.loads, push, damp, bed.scene.dem_step, sums);
+  count_grain_steps(run, work.bodies.size());
 }
 
-BENCHMARK_CAPTURE(advance_bed, at_rest, 0.0)->Arg(1500)->Arg(20000)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(advance_bed, eroding, 1.5)->Arg(1500)->Arg(20000)->Unit(benchmark::kMillisecond);
+void list_rebuild(benchmark::State& run) {
+  const Bed& bed = settled_bed(std::size_t(run.range(0)));
+  Workspace work(bed);
+  for (auto _ : run) work.list.rebuild(work.bodies, bed.scene.dem_step, bed.contacts);
+  run.counters["ns_per_grain"] = benchmark::Counter(
+      double(work.bodies.size()) * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void register_size(std::int64_t grains, std::int64_t calls) {
+  const std::string million = grains == 1'000'000 ? "million/" : "";
+  for (const bool eroding : {false, true})
+    benchmark::RegisterBenchmark((million + "advance_bed/" + (eroding ? "eroding" : "at_rest")).c_str(), advance_bed,
+                                 eroding)
+        ->Arg(grains)
+        ->Iterations(calls)
+        ->Unit(benchmark::kMillisecond);
+  const auto part = [&](const char* name, void (*function)(benchmark::State&)) {
+    benchmark::RegisterBenchmark((million + name).c_str(), function)->Arg(grains)->Unit(benchmark::kMillisecond);
+  };
+  part("contact_pass", contact_pass), part("motion", motion), part("list_rebuild", list_rebuild);
+}
 
 }   // namespace
 }   // namespace bedload
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  using namespace bedload;
+  register_size(2'000, 1000), register_size(20'000, 200), register_size(200'000, 30);
+  for (int i = 1; i < argc; ++i)
+    if (std::string_view(argv[i]).find("million") != std::string_view::npos) register_size(1'000'000, 10);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 64;
+  benchmark::RunSpecifiedBenchmarks();
+}
