@@ -1,4 +1,4 @@
-// What a checkpoint costs: 20 000 grains, 100 000 contacts, 40 000 cells.
+// What a checkpoint costs: five contacts and two cells per grain.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -11,9 +11,13 @@
 namespace bedload {
 namespace {
 
-const State& large_state() {
-  static const State state =
-      random_state(1, {.grains = 20'000, .contacts = 100'000, .rows = 1'000, .cells = {40, 25, 40}});
+/// As many grains as the benchmark's argument says. The last one asked for is kept.
+const State& state_of(const benchmark::State& run) {
+  static State state;
+  const auto grains = std::size_t(run.range(0));
+  if (state.grains.size() != grains)
+    state = random_state(
+        1, {.grains = grains, .contacts = 5 * grains, .rows = 1'000, .cells = {40, 25, int(grains / 500)}});
   return state;
 }
 
@@ -24,18 +28,18 @@ void count_bytes(benchmark::State& run, std::size_t bytes) {
 
 void BuildImage(benchmark::State& run) {
   std::size_t bytes = 0;
-  for (auto _ : run) bytes = checkpoint_image(large_state()).size();
+  for (auto _ : run) bytes = checkpoint_image(state_of(run)).size();
   count_bytes(run, bytes);
 }
 
 void ReadImage(benchmark::State& run) {
-  const auto image = checkpoint_image(large_state());
+  const auto image = checkpoint_image(state_of(run));
   for (auto _ : run) benchmark::DoNotOptimize(state_from_image(image, "image"));
   count_bytes(run, image.size());
 }
 
 void ReadHeader(benchmark::State& run) {
-  const auto image = checkpoint_image(large_state());
+  const auto image = checkpoint_image(state_of(run));
   for (auto _ : run) benchmark::DoNotOptimize(header_from_image(image, "image"));
   count_bytes(run, image.size());
 }
@@ -43,19 +47,22 @@ void ReadHeader(benchmark::State& run) {
 void WriteToDisk(benchmark::State& run) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "ck-1.h5";
-  for (auto _ : run) write_checkpoint(path, large_state());
+  for (auto _ : run) write_checkpoint(path, state_of(run));
   count_bytes(run, std::filesystem::file_size(path));
 }
 
 void DigestState(benchmark::State& run) {
-  for (auto _ : run) benchmark::DoNotOptimize(state_digest(large_state()));
+  for (auto _ : run) benchmark::DoNotOptimize(state_digest(state_of(run)));
 }
 
-BENCHMARK(BuildImage)->Unit(benchmark::kMillisecond);
-BENCHMARK(ReadImage)->Unit(benchmark::kMillisecond);
-BENCHMARK(ReadHeader)->Unit(benchmark::kMillisecond);
-BENCHMARK(WriteToDisk)->Unit(benchmark::kMillisecond);
-BENCHMARK(DigestState)->Unit(benchmark::kMillisecond);
+void sizes(benchmark::internal::Benchmark* b) {
+  b->Arg(2'000)->Arg(20'000)->Arg(200'000)->Unit(benchmark::kMillisecond);
+}
+BENCHMARK(BuildImage)->Apply(sizes);
+BENCHMARK(ReadImage)->Apply(sizes);
+BENCHMARK(ReadHeader)->Apply(sizes);
+BENCHMARK(WriteToDisk)->Apply(sizes);
+BENCHMARK(DigestState)->Apply(sizes);
 
 }   // namespace
 }   // namespace bedload

@@ -1,43 +1,86 @@
-// The coupled step on a sheared bed of free grains: 2 000 and 20 000 grains, cells of 5 d (those of
-// "Numerical Simulation of Incipient Sediment Motion Driven by Fluid Flow") and 2.5 d.
+// The coupled step of a case, with all that surrounds it (counting, sampling, judging), on the settled bed under a lid: the
+// scene of studies/examples/seed-erosion.toml (theta 0.03, water taken for laminar, drag and buoyancy alone, ten sub-steps) on
+// cells of 5 d and of 2.5 d; and with all terms that water in truth requires.
 #include <benchmark/benchmark.h>
 
-#include "solver/coupler.hpp"
-#include "tests/support/scenes.hpp"
+#include "benchmarks/settled_bed.hpp"
+#include "solver/experiment.hpp"
 
+namespace bedload {
 namespace {
 
-using namespace bedload;
+using namespace benchmarks;
 
-void coupled_step(benchmark::State& bench) {
-  const bool large = bench.range(0) == 20000;
-  const double d = 1e-3, edge = 0.5 * d * static_cast<double>(bench.range(1)), length = (large ? 50 : 20) * d,
-               depth = (large ? 20 : 5) * d;
-  const auto cells = [&](double size) { return static_cast<int>(size / edge + 0.5); };
-  Scene scene =
-      test::fluid_scene({cells(length), cells(20 * d), cells(depth + 10 * d)}, {edge, edge, edge}, test::channel, 1e-6);
-  scene.bed.gravity = {0, 0, -9.81};
-  test::add_grains(scene, d, 3, 0.05);
-  const std::array<int, 3> count = {large ? 50 : 20, 20, large ? 20 : 5};
-  State state = test::state_of(scene, test::cubic_places(count, {}, {length, 20 * d, depth}, 0.02 * d, 1), false);
-  state.search.lid_speed = 1;
-  Coupler coupler(scene);
-  for (int i = 0; i < 20; ++i) coupler.step(state, scene.steps.fluid_interval);
-  const StepTimes before = coupler.times();
-  double grain_steps = 0, cell_steps = 0;
-  for (auto _ : bench) {
-    grain_steps += coupler.step(state, scene.steps.fluid_interval).substeps * static_cast<double>(state.grains.size());
-    cell_steps += static_cast<double>(scene.grid.cell_count());
-  }
-  const StepTimes& after = coupler.times();
-  const double total = after.total - before.total;
-  bench.counters["grain_steps/s"] = benchmark::Counter(grain_steps, benchmark::Counter::kIsRate);
-  bench.counters["cell_steps/s"] = benchmark::Counter(cell_steps, benchmark::Counter::kIsRate);
-  bench.counters["contacts_share"] = (after.contacts - before.contacts) / total;
-  bench.counters["drag_share"] = (after.drag - before.drag) / total;
-  bench.counters["grid_share"] = (after.deposit + after.sample - before.deposit - before.sample) / total;
-  bench.counters["pressure_share"] = (after.pressure - before.pressure) / total;
+Terms drag_and_buoyancy() {
+  Terms terms;
+  terms.pressure_gradient = terms.viscous_stress = false;
+  return terms;
 }
-BENCHMARK(coupled_step)->Args({2000, 10})->Args({20000, 10})->Args({20000, 5})->Unit(benchmark::kMillisecond);
+
+Terms terms_of_water() {
+  Terms terms;
+  terms.self_disturbance = terms.added_mass = terms.shear_lift = terms.magnus = terms.viscous_torque = true;
+  terms.wall_forces = terms.wet_restitution = terms.exposure = terms.turbulence = true;
+  return terms;
+}
+
+Scene erosion(const Bed& bed, double cell, const Terms& terms) {
+  Scene scene;
+  scene.bed = bed.scene;
+  scene.bed.fluid.viscosity = 1e-6;
+  scene.terms = terms;
+  scene.grid.sides = scene.bed.sides, scene.grid.top = scene.bed.top;
+  for (int c = 0; c < 3; ++c) {
+    scene.grid.cells[c] = int(std::lround(scene.bed.length[c] / cell));
+    scene.grid.h[c] = scene.bed.length[c] / scene.grid.cells[c];
+  }
+  scene.steps.fluid_interval = 10 * scene.bed.dem_step;
+  scene.drive = {.kind = FlowRamp::Kind::lid, .quantity = FlowRamp::Quantity::shields, .levels = {0.03}};
+  scene.drive.dwell = 1e3;   // for ever
+  scene.onset.method = Onset::Method::none;
+  scene.record.every = 0.01;
+  validate(scene);
+  return scene;
+}
+
+/// Arguments: grains, cell in halves of a diameter.
+void coupled_step(benchmark::State& run, const Terms& terms) {
+  const Bed& bed = settled_bed(std::size_t(run.range(0)));
+  const Scene scene = erosion(bed, 0.5 * grain_diameter * double(run.range(1)), terms);
+  Experiment experiment(scene);
+  State state;
+  state.fluid = FluidState(scene.grid);
+  state.grains = bed.grains, state.contacts = bed.contacts;
+  state = experiment.begin_on(std::move(state));
+  for (int i = 0; i < 20; ++i) experiment.step(state);
+  const StepTimes before = experiment.coupler().times();
+  double substeps = 0, iterations = 0, steps = 0;
+  for (auto _ : run) {
+    const StepHealth health = experiment.step(state);
+    substeps += health.substeps, iterations += health.pressure_iterations, ++steps;
+  }
+  const StepTimes& after = experiment.coupler().times();
+  const double total = after.total - before.total;
+  const auto per_second = [](double count) { return benchmark::Counter(count, benchmark::Counter::kIsRate); };
+  run.counters["grain_steps/s"] = per_second(substeps * double(state.grains.size()));
+  run.counters["cell_steps/s"] = per_second(steps * double(scene.grid.cell_count()));
+  run.counters["substeps"] = substeps / steps;
+  run.counters["pressure_iterations"] = iterations / steps;
+  run.counters["share_contacts"] = (after.contacts - before.contacts) / total;
+  run.counters["share_drag"] = (after.drag - before.drag) / total;
+  run.counters["share_exchange"] = (after.deposit + after.sample - before.deposit - before.sample) / total;
+  run.counters["share_transport"] = (after.transport - before.transport) / total;
+  run.counters["share_pressure"] = (after.pressure - before.pressure) / total;
+}
+
+void sizes(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"grains", "cell"})
+      ->ArgsProduct({{2'000, 20'000, 200'000}, {10, 5}})
+      ->MinTime(2)
+      ->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(coupled_step, seed, drag_and_buoyancy())->Apply(sizes);
+BENCHMARK_CAPTURE(coupled_step, water, terms_of_water())->Apply(sizes);
 
 }   // namespace
+}   // namespace bedload
