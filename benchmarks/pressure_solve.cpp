@@ -24,7 +24,7 @@ void pressure_solve(benchmark::State& state) {
     p = Field<Centre>(g);
     result = solver.solve(c, rhs, p, 1e-8, 0);
   }
-  state.counters["iterations"] = result.iterations;
+  state.counters["pressure_iterations"] = result.iterations;
   state.counters["ns_per_cell_and_iteration"] =
       benchmark::Counter(double(g.cell_count()) * result.iterations * 1e-9,
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
