@@ -73,10 +73,24 @@ void triad(benchmark::State& run) {
       benchmark::Counter(double(3 * sizeof(double) * n), benchmark::Counter::kIsIterationInvariantRate);
 }
 
+/// a = s - a over one array of as many KiB: what is read is what is written.
+void update(benchmark::State& run) {
+  const auto n = std::size_t(run.range(0)) * 1024 / sizeof(double);
+  std::vector<double> a(n, 1);
+  for (auto _ : run) {
+    for (double& x : a) x = 0.5 - x;
+    benchmark::ClobberMemory();
+  }
+  run.counters["bytes/s"] =
+      benchmark::Counter(double(2 * sizeof(double) * n), benchmark::Counter::kIsIterationInvariantRate);
+}
+
 BENCHMARK_TEMPLATE(multiply_add_avx2, float);
 BENCHMARK_TEMPLATE(multiply_add_avx2, double);
 BENCHMARK_TEMPLATE(multiply_add_avx512, float);
 BENCHMARK_TEMPLATE(multiply_add_avx512, double);
-BENCHMARK(triad)->ArgName("KiB")->Arg(24)->Arg(768)->Arg(12 * 1024)->Arg(300 * 1024);
+void levels(benchmark::internal::Benchmark* b) { b->ArgName("KiB")->Arg(24)->Arg(768)->Arg(4 * 1024)->Arg(300 * 1024); }
+BENCHMARK(triad)->Apply(levels);
+BENCHMARK(update)->Apply(levels);
 
 }   // namespace
