@@ -6,7 +6,6 @@
 
 #include "benchmarks/settled_bed.hpp"
 #include "solver/grains/contact_forces.hpp"
-#include "solver/grains/grain_motion.hpp"
 
 namespace bedload {
 namespace {
@@ -56,22 +55,28 @@ struct Workspace {
     const Grains& g = bed.grains;
     for (std::size_t i = 0; i < g.size(); ++i) {
       const double mass = g.density[i] * sphere_volume(g.diameter[i]);
-      bodies.push_back({g.position[i], 0.5 * g.diameter[i], g.velocity[i], 1 / mass, g.spin[i],
-                        1 / sphere_inertia(mass, g.diameter[i])});
+      bodies.spheres.push_back(sphere_of(g.position[i], 0.5 * g.diameter[i], g.velocity[i], g.spin[i]));
+      bodies.motions.push_back({g.velocity[i], 1 / mass, g.spin[i], 1 / sphere_inertia(mass, g.diameter[i])});
     }
     list.rebuild(bodies, bed.scene.dem_step, bed.contacts);
   }
   NeighbourList list;
-  std::vector<Body> bodies;
+  Bodies bodies;
   std::vector<Load> loads;
+  const GrainKernels& kernels = grain_kernels();
 };
 
+/// Overlap, law and loads of all pairs, and the loads of grains from them.
 void contact_pass(benchmark::State& run) {
   const Bed& bed = settled_bed(std::size_t(run.range(0)));
   const HertzMindlin law(bed.scene.grains);
   Workspace work(bed);
-  for (auto _ : run)
-    add_pair_forces(law, nullptr, work.list.box(), work.bodies, bed.scene.dem_step, work.list.pairs, work.loads);
+  const PairPass pairs = pair_pass(law, nullptr, work.bodies, bed.scene.dem_step, work.list);
+  for (auto _ : run) {
+    work.kernels.meet(pairs, 0, work.list.pairs.blocks.size());
+    SumPass sum = sum_pass(work.bodies, work.list);
+    work.kernels.add_up(sum, 0, work.bodies.size(), work.loads.data());
+  }
   count_grain_steps(run, work.bodies.size());
   run.counters["listed_per_grain"] = double(work.list.pairs.size()) / double(work.bodies.size());
 }
@@ -80,9 +85,15 @@ void motion(benchmark::State& run) {
   const Bed& bed = settled_bed(std::size_t(run.range(0)));
   Workspace work(bed);
   std::vector<Load> sums(work.loads.size());
-  const std::vector<Vec3> push(work.loads.size());   // none: the grains stay
-  const std::vector<double> damp(work.loads.size(), 1.0);
-  for (auto _ : run) move_bodies(work.bodies, work.loads, push, damp, bed.scene.dem_step, sums);
+  const std::vector<Push> push(work.loads.size(), Push{{}, 1});   // none: the grains stay
+  const MotionPass pass{work.bodies.spheres.data(),
+                        work.bodies.motions.data(),
+                        push.data(),
+                        nullptr,
+                        work.list.inverse_skins().data(),
+                        sums.data(),
+                        bed.scene.dem_step};
+  for (auto _ : run) work.kernels.move(pass, 0, work.bodies.size(), work.loads.data());
   count_grain_steps(run, work.bodies.size());
 }
 

@@ -3,6 +3,7 @@
 
 #include "benchmarks/settled_bed.hpp"
 #include "solver/coupling/hydrodynamic_forces.hpp"
+#include "solver/grains/box_walls.hpp"
 
 namespace bedload {
 namespace {
@@ -20,10 +21,17 @@ struct OnGrid {
     }
     find_stencils(grid, bed.grains, stencils);
     moved.assign(bed.grains.size(), {0.01 * cell, 0.02 * cell, -0.01 * cell});
+    Grains after = bed.grains;
+    for (std::size_t p = 0; p < after.size(); ++p)
+      after.position[p] = PeriodicBox(bed.scene).wrapped(after.position[p] + moved[p]);
+    Stencils stencils_after;
+    find_stencils(grid, after, stencils_after);
+    reach = united(stencils.reach, stencils_after.reach);
   }
   const Bed& bed;
   StaggeredGrid grid;
-  std::vector<Stencil> stencils;
+  Stencils stencils;
+  Reach reach;   // of the grains before and after they moved
   std::vector<Vec3> moved;
 };
 
@@ -47,15 +55,15 @@ void void_fraction(benchmark::State& run) {
 
 void solid_flux(benchmark::State& run) {
   const OnGrid on(run);
-  FaceFields flux(on.grid);
+  SolidFlux flux(on.grid);
   for (auto _ : run) deposit_solid_flux(on.grid, on.bed.grains, on.stencils, flux);
   count_grains(run);
 }
 
 void swept_flux(benchmark::State& run) {
   const OnGrid on(run);
-  FaceFields flux(on.grid);
-  for (auto _ : run) deposit_swept_flux(on.grid, on.bed.grains, on.bed.grains.position, on.moved, 1e-4, flux);
+  SolidFlux flux(on.grid);
+  for (auto _ : run) deposit_swept_flux(on.grid, on.bed.grains, on.bed.grains.position, on.moved, on.reach, 1e-4, flux);
   count_grains(run);
 }
 

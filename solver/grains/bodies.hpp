@@ -19,6 +19,16 @@ struct alignas(64) Sphere {
 };
 static_assert(sizeof(Sphere) == 64);
 
+inline Sphere sphere_of(Vec3 position, double radius, Vec3 velocity, Vec3 spin) {
+  const auto real = [](double x) { return static_cast<float>(x); };
+  const Vec3 surface = radius * spin;
+  return {position,
+          radius,
+          {real(velocity.x), real(velocity.y), real(velocity.z)},
+          0,
+          {real(surface.x), real(surface.y), real(surface.z)}};
+}
+
 /// A grain as its motion goes on: the velocities of record.
 struct alignas(64) Motion {
   Vec3 velocity;            // [m/s]

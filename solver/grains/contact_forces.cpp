@@ -20,6 +20,12 @@ PairPass pair_pass(const HertzMindlin& law, const WetRestitution* wet, const Bod
   return pass;
 }
 
+SumPass sum_pass(const Bodies& bodies, const NeighbourList& list) noexcept {
+  const ContactLoads& loads = list.loads;
+  return {bodies.spheres.data(), loads.load.data(), loads.places.data(), loads.further_as_higher.data(),
+          loads.further_as_lower.data()};
+}
+
 // A load is rounded before it is used, so that grain and wall get the same.
 Vec3 meet_walls(const HertzMindlin& rough, const HertzMindlin& smooth, const WetRestitution* wet, const Bodies& bodies,
                 double dt, double lid_speed, NeighbourList& list) noexcept {

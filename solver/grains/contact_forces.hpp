@@ -13,6 +13,9 @@ namespace bedload {
 /// begins.
 PairPass pair_pass(const HertzMindlin&, const WetRestitution* wet, const Bodies&, double dt, NeighbourList&) noexcept;
 
+/// The places of the contacts' loads, for the kernel that adds them up.
+SumPass sum_pass(const Bodies&, const NeighbourList&) noexcept;
+
 /// Loads of the contacts with walls; renews their springs and depths. Returns the force of all grains on the walls [N].
 Vec3 meet_walls(const HertzMindlin& rough, const HertzMindlin& smooth, const WetRestitution* wet, const Bodies&,
                 double dt, double lid_speed, NeighbourList&) noexcept;

@@ -61,14 +61,8 @@ void GrainDynamics::Workspace::take(const Grains& grains, const GrainDrive& driv
     const double mass = grains.density[i] * sphere_volume(grains.diameter[i]);
     const double inertia = drive.added_mass.empty() ? mass : mass + drive.added_mass[i];
     const bool fixed = grains.fixed[i] != 0;
-    const Vec3 v = grains.velocity[i], surface = 0.5 * grains.diameter[i] * grains.spin[i];
-    const auto real = [](double x) { return static_cast<float>(x); };
-    bodies.spheres[i] = {grains.position[i],
-                         0.5 * grains.diameter[i],
-                         {real(v.x), real(v.y), real(v.z)},
-                         0,
-                         {real(surface.x), real(surface.y), real(surface.z)}};
-    bodies.motions[i] = {v, fixed ? 0 : 1 / inertia, grains.spin[i],
+    bodies.spheres[i] = sphere_of(grains.position[i], 0.5 * grains.diameter[i], grains.velocity[i], grains.spin[i]);
+    bodies.motions[i] = {grains.velocity[i], fixed ? 0 : 1 / inertia, grains.spin[i],
                          fixed ? 0 : 1 / sphere_inertia(mass, grains.diameter[i])};
     push[i] = {drive.push[i], drive.relaxation.empty() ? 1 : 1 / (1 + dt * drive.relaxation[i])};
   }
@@ -112,8 +106,7 @@ Vec3 GrainDynamics::Workspace::advance(const GrainDrive& drive, double dt, doubl
   loads.resize(at_once);
   Vec3 on_walls = meet_walls(rough, smooth, wet ? &*wet : nullptr, bodies, dt, lid_speed, list);
   const PairPass pairs = pair_pass(rough, wet ? &*wet : nullptr, bodies, dt, list);
-  SumPass sum{bodies.spheres.data(), list.loads.load.data(), list.loads.places.data(),
-              list.loads.further_as_higher.data(), list.loads.further_as_lower.data()};
+  SumPass sum = sum_pass(bodies, list);
   const MotionPass motion{bodies.spheres.data(),
                           bodies.motions.data(),
                           push.data(),

@@ -31,9 +31,7 @@ struct Crowd {
       Vec3 place;
       for (int c = 0; c < 3; ++c) place[c] = scene.length[c] * random.uniform();
       const Vec3 v = any(0.1), w = any(200);
-      const auto real = [](double x) { return static_cast<float>(x); };
-      bodies.spheres.push_back(
-          {place, r, {real(v.x), real(v.y), real(v.z)}, 0, {real(r * w.x), real(r * w.y), real(r * w.z)}});
+      bodies.spheres.push_back(sphere_of(place, r, v, w));
       const bool fixed = n % 10 == 0;
       bodies.motions.push_back({v, fixed ? 0 : 1 / mass, w, fixed ? 0 : 1 / sphere_inertia(mass, 2 * r)});
       push.push_back({any(10), 1 - 0.1 * random.uniform()});
@@ -49,11 +47,7 @@ struct Crowd {
   }
 
   PairPass pass() { return pair_pass(law, list->wet() ? &wet : nullptr, bodies, scene.dem_step, *list); }
-  SumPass sums() {
-    const ContactLoads& loads = list->loads;
-    return {bodies.spheres.data(), loads.load.data(), loads.places.data(), loads.further_as_higher.data(),
-            loads.further_as_lower.data()};
-  }
+  SumPass sums() { return sum_pass(bodies, *list); }
 
   BedScene scene;
   WetRestitution wet;
