@@ -54,10 +54,11 @@ TEST_P(FreeBed, ComesToRestInStillFluid) {
 
   Coupler coupler(scene);
   double early = 0, late = 0;
-  for (int i = 0; i < 1000; ++i) {
+  constexpr int steps = 3000;   // only drag slows a grain that rolls on the floor
+  for (int i = 0; i < steps; ++i) {
     ASSERT_TRUE(coupler.step(state, scene.steps.fluid_interval).finite);
     if (i < 250) early = std::max(early, fastest_flow(scene, state));
-    if (i >= 990) late = std::max(late, fastest_flow(scene, state));
+    if (i >= steps - 10) late = std::max(late, fastest_flow(scene, state));
   }
   EXPECT_LT(late, 1e-4 * terminal);
   EXPECT_LT(late, early);
