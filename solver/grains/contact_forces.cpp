@@ -14,7 +14,7 @@ PairPass pair_pass(const HertzMindlin& law, const WetRestitution* wet, const Bod
   pass.material = {real(law.material().normal_stiffness), real(law.material().shear_ratio), real(law.friction())};
   pass.damping = {real(law.damping().normal), real(law.damping().tangential)};
   pass.root_shear_ratio = real(law.root_shear_ratio());
-  if (wet) pass.wet = wet->table();
+  if (wet) pass.wet_blocks = list.pairs.wet_blocks.data(), pass.wet = wet->table();
   for (int c = 0; c < 3; ++c) pass.length[c] = box.length[c], pass.inverse_length[c] = box.inverse[c];
   pass.dt = real(dt);
   return pass;

@@ -92,7 +92,7 @@ BEDLOAD_INLINE void deliver(ContactLoad* to, const Vector<Wide>& force, const Ve
 BEDLOAD_INLINE Wide all(float x) { return Wide{} + x; }
 
 /// Damping of contacts in a liquid: chosen by the speed of approach when a contact begins, and kept.
-BEDLOAD_INLINE DampingOf<Wide> wet_damping(const PairPass& p, PairBlock& b, std::size_t at, const OverlapOf<Wide>& o) {
+BEDLOAD_INLINE DampingOf<Wide> wet_damping(const PairPass& p, WetBlock& b, std::size_t at, const OverlapOf<Wide>& o) {
   const Wide closing = dot(o.velocity, o.normal);
   Wide alpha = load<Wide>(b.damping + at);
   for (int part = 0; part < 2; ++part)
@@ -110,7 +110,7 @@ BEDLOAD_INLINE DampingOf<Wide> wet_damping(const PairPass& p, PairBlock& b, std:
 
 /// Two registers full of pairs. The contact divides the line between the centres as the radii do, so that lever arms,
 /// r_i q and r_j q with q = distance/(r_i + r_j), add up to it and angular momentum is kept. (G9)
-BEDLOAD_INLINE void meet_some(const PairPass& p, PairBlock& b, std::size_t at, ContactLoad* loads) {
+BEDLOAD_INLINE void meet_some(const PairPass& p, PairBlock& b, WetBlock* wet, std::size_t at, ContactLoad* loads) {
   Meeting m;
   approach(p, b, at, 0, m), approach(p, b, at, 1, m);
   const Wide distance = root(dot(m.apart, m.apart));
@@ -123,7 +123,7 @@ BEDLOAD_INLINE void meet_some(const PairPass& p, PairBlock& b, std::size_t at, C
   o.velocity = m.velocity + arm * cross(m.surface, o.normal);
 
   const DampingOf<Wide> damping =
-      p.wet.alpha ? wet_damping(p, b, at, o) : DampingOf<Wide>{all(p.damping.normal), all(p.damping.tangential)};
+      wet ? wet_damping(p, *wet, at, o) : DampingOf<Wide>{all(p.damping.normal), all(p.damping.tangential)};
   const Vector<Wide> spring{load<Wide>(b.spring_x + at), load<Wide>(b.spring_y + at), load<Wide>(b.spring_z + at)};
   const auto r = hertz_mindlin(p.material, o, spring, all(p.dt), damping);
   store(b.depth + at, o.depth);
@@ -136,7 +136,8 @@ void meet(const PairPass& pass, std::size_t first, std::size_t last) {
   const PairPass p = pass;   // nothing stored below can change it
   for (std::size_t block = first; block < last; ++block)
     for (std::size_t at = 0; at < PairBlock::pairs; at += 2 * lanes)
-      meet_some(p, p.blocks[block], at, p.loads + block * PairBlock::pairs);
+      meet_some(p, p.blocks[block], p.wet_blocks ? p.wet_blocks + block : nullptr, at,
+                p.loads + block * PairBlock::pairs);
 }
 
 void add_up(SumPass& pass, std::size_t first, std::size_t last, Load* loads) {

@@ -108,6 +108,7 @@ void NeighbourList::list_pairs(const Bodies& bodies) {
   find_near_pairs(box_, origin_, reach_, fixed_, pairs.ids);
   const std::size_t n = pairs.size();
   pairs.blocks.assign((n + PairBlock::pairs - 1) / PairBlock::pairs, {});
+  pairs.wet_blocks.assign(wet_ ? pairs.blocks.size() : 0, {});
   pairs.rolling.resize(rolls_ ? n : 0);
   for (std::size_t pair = 0; pair < n; ++pair) {
     PairBlock& block = pairs.blocks[pair / PairBlock::pairs];
@@ -120,7 +121,9 @@ void NeighbourList::list_pairs(const Bodies& bodies) {
     block.inverse_radius_sum[k] = inverse;
     block.root_radius[k] = std::sqrt(static_cast<float>(radius_[i]) * static_cast<float>(radius_[j]) * inverse);
     block.mass[k] = reduced_mass(bodies.motions[i], bodies.motions[j]);
-    if (wet_) block.viscous_speed[k] = static_cast<float>(wet_->viscous_speed(solid(bodies, i), solid(bodies, j)));
+    if (wet_)
+      pairs.wet_blocks[pair / PairBlock::pairs].viscous_speed[k] =
+          static_cast<float>(wet_->viscous_speed(solid(bodies, i), solid(bodies, j)));
   }
 }
 
@@ -177,8 +180,8 @@ void NeighbourList::recall(const ContactHistory& history) {
 void NeighbourList::load(const ContactHistory& history) {
   std::size_t pair = 0, touch = 0;
   for (PairBlock& b : pairs.blocks)
-    for (std::size_t k = 0; k < PairBlock::pairs; ++k)
-      b.depth[k] = b.spring_x[k] = b.spring_y[k] = b.spring_z[k] = 0, b.damping[k] = -1;
+    for (std::size_t k = 0; k < PairBlock::pairs; ++k) b.depth[k] = b.spring_x[k] = b.spring_y[k] = b.spring_z[k] = 0;
+  for (WetBlock& b : pairs.wet_blocks) std::ranges::fill(b.damping, -1.0f);
   std::ranges::fill(pairs.rolling, Vec3{});
   for (auto& contact : wall_contacts)
     contact.depth = 0, contact.spring = {}, contact.damping = -1, contact.rolling = {};
@@ -204,7 +207,7 @@ void NeighbourList::load(const ContactHistory& history) {
         block.spring_x[k] = static_cast<float>(history.spring[h].x);
         block.spring_y[k] = static_cast<float>(history.spring[h].y);
         block.spring_z[k] = static_cast<float>(history.spring[h].z);
-        if (damped) block.damping[k] = static_cast<float>(history.damping[h]);
+        if (damped) pairs.wet_blocks[pair / PairBlock::pairs].damping[k] = static_cast<float>(history.damping[h]);
         if (rolls) pairs.rolling[pair] = history.rolling[h];
       }
     }
@@ -233,7 +236,7 @@ void NeighbourList::save(ContactHistory& history) {
     walls_of_grains_below(b.lower[k]);
     saved_.lower.push_back(b.lower[k]), saved_.higher.push_back(b.higher[k]);
     saved_.spring.push_back({b.spring_x[k], b.spring_y[k], b.spring_z[k]});
-    if (wet_) saved_.damping.push_back(b.damping[k]);
+    if (wet_) saved_.damping.push_back(pairs.damping(pair));
     if (rolls_) saved_.rolling.push_back(pairs.rolling[pair]);
   }
   walls_of_grains_below(UINT32_MAX);

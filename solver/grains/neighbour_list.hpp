@@ -17,13 +17,14 @@ namespace bedload {
 struct PairContacts {
   PairList ids;
   std::vector<PairBlock> blocks;
-  std::vector<Vec3> rolling;   // rolling spring [rad]; empty without rolling friction
+  std::vector<WetBlock> wet_blocks;   // empty without liquid between the grains
+  std::vector<Vec3> rolling;          // rolling spring [rad]; empty without rolling friction
 
   std::size_t size() const { return ids.size(); }
   float depth(std::size_t k) const { return blocks[k / PairBlock::pairs].depth[k % PairBlock::pairs]; }
   float root_radius(std::size_t k) const { return blocks[k / PairBlock::pairs].root_radius[k % PairBlock::pairs]; }
   float mass(std::size_t k) const { return blocks[k / PairBlock::pairs].mass[k % PairBlock::pairs]; }
-  float damping(std::size_t k) const { return blocks[k / PairBlock::pairs].damping[k % PairBlock::pairs]; }
+  float damping(std::size_t k) const { return wet_blocks[k / PairBlock::pairs].damping[k % PairBlock::pairs]; }
 };
 
 /// Candidates for contact with walls, sorted by grain then wall.

@@ -17,8 +17,12 @@ struct alignas(64) PairBlock {
   float mass[pairs] = {};                                // m* [kg]
   float depth[pairs] = {};                               // at the last pass [m]; not positive: apart
   float spring_x[pairs] = {}, spring_y[pairs] = {}, spring_z[pairs] = {};   // tangential spring [m]
-  float damping[pairs] = {};         // alpha, negative: apart [-]; only in a liquid
-  float viscous_speed[pairs] = {};   // of WetRestitution [m/s]; only in a liquid
+};
+
+/// What is added in a liquid.
+struct alignas(64) WetBlock {
+  float damping[PairBlock::pairs] = {};         // alpha, negative: apart [-]
+  float viscous_speed[PairBlock::pairs] = {};   // of WetRestitution [m/s]
 };
 
 }   // namespace bedload

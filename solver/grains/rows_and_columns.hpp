@@ -12,6 +12,7 @@ using Row8 = float __attribute__((vector_size(32)));
 
 #if defined(__AVX512F__)
 constexpr int lanes = 16;
+constexpr __mmask8 every = 0xFF;   // the forms without a mask warn of a value that is not set
 using Floats = float __attribute__((vector_size(64)));
 using Doubles = double __attribute__((vector_size(64)));   // half as many
 #else
@@ -38,7 +39,9 @@ BEDLOAD_INLINE void store(Number* at, Register r) {
 struct TwoRows {
 #if defined(__AVX512F__)
   Doubles both{};
-  BEDLOAD_INLINE void add_in_double(const float* at) { both += Doubles(_mm512_cvtps_pd(_mm256_load_ps(at))); }
+  BEDLOAD_INLINE void add_in_double(const float* at) {
+    both += Doubles(_mm512_maskz_cvtps_pd(every, _mm256_load_ps(at)));
+  }
   BEDLOAD_INLINE Row4 first() const { return __builtin_shufflevector(both, both, 0, 1, 2, 3); }
   BEDLOAD_INLINE Row4 second() const { return __builtin_shufflevector(both, both, 4, 5, 6, 7); }
 #else
@@ -55,8 +58,9 @@ BEDLOAD_INLINE void store_in_float(float* at, Row4 row) { _mm_store_ps(at, _mm25
 
 BEDLOAD_INLINE Floats join(Doubles low, Doubles high) {
 #if defined(__AVX512F__)
-  const __m256 a = _mm512_cvtpd_ps(__m512d(low)), b = _mm512_cvtpd_ps(__m512d(high));
-  return Floats(_mm512_insertf32x8(_mm512_castps256_ps512(a), b, 1));
+  const Row8 a = Row8(_mm512_maskz_cvtpd_ps(every, __m512d(low))),
+             b = Row8(_mm512_maskz_cvtpd_ps(every, __m512d(high)));
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 #else
   return Floats(_mm256_set_m128(_mm256_cvtpd_ps(__m256d(high)), _mm256_cvtpd_ps(__m256d(low))));
 #endif
