@@ -36,13 +36,15 @@ struct Candidates {
     if (n + lanes <= id.size()) return;
     x.resize(n + lanes), y.resize(n + lanes), z.resize(n + lanes), reach.resize(n + lanes), id.resize(n + lanes);
   }
-  /// Appends those of another from `first` to `last`.
+  /// Appends those of another from `first` to `last`, in whole registers.
   void append(const Candidates& other, std::size_t first, std::size_t last) {
-    const std::size_t at = count, many = last - first;
-    resize(at + many);
-    for (const auto array : {&Candidates::x, &Candidates::y, &Candidates::z, &Candidates::reach})
-      std::memcpy((this->*array).data() + at, (other.*array).data() + first, many * sizeof(float));
-    std::memcpy(id.data() + at, other.id.data() + first, many * sizeof(std::uint32_t));
+    const std::size_t at = count;
+    resize(at + last - first);
+    for (std::size_t k = 0; k < last - first; k += lanes) {
+      for (const auto array : {&Candidates::x, &Candidates::y, &Candidates::z, &Candidates::reach})
+        std::memcpy((this->*array).data() + at + k, (other.*array).data() + first + k, lanes * sizeof(float));
+      std::memcpy(id.data() + at + k, other.id.data() + first + k, lanes * sizeof(std::uint32_t));
+    }
   }
 };
 
@@ -53,7 +55,7 @@ class CellGrid {
   CellGrid(const PeriodicBox& box, std::span<const Vec3> position, std::span<const double> reach) : box_(box) {
     choose_counts(2 * *std::ranges::max_element(reach), position.size());
     std::vector<std::uint32_t> cell(position.size());
-    start_.assign(cells() + 1, 0);
+    start_.assign(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2] + 1, 0);
     for (std::size_t i = 0; i < position.size(); ++i) ++start_[(cell[i] = cell_at(position[i])) + 1];
     for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
     std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
@@ -66,31 +68,40 @@ class CellGrid {
     }
   }
 
-  std::size_t cells() const { return static_cast<std::size_t>(count_[0]) * count_[1] * count_[2]; }
-  std::span<const std::uint32_t> grains_of(std::size_t cell) const {
-    return std::span(grains_.id).subspan(start_[cell], start_[cell + 1] - start_[cell]);
-  }
-
-  /// All grains in the cell and those around it.
-  void gather_around(std::size_t cell, Candidates& near) const {
-    near.resize(0);
-    const int z = static_cast<int>(cell) % count_[2], row = static_cast<int>(cell) / count_[2];
-    std::array<int, 3> xs{}, ys{}, zs{};
-    const int many_x = neighbours(row / count_[1], 0, xs), many_y = neighbours(row % count_[1], 1, ys);
-    const int many_z = neighbours(z, 2, zs);
-    for (int a = 0; a < many_x; ++a)
-      for (int b = 0; b < many_y; ++b) {
-        const std::size_t column = (static_cast<std::size_t>(xs[a]) * count_[1] + ys[b]) * count_[2];
-        for (int c = 0; c < many_z;) {   // cells one after the other at once
-          int last = c + 1;
-          while (last < many_z && zs[last] == zs[last - 1] + 1) ++last;
-          near.append(grains_, start_[column + zs[c]], start_[column + zs[last - 1] + 1]);
-          c = last;
+  /// Visits stretches of a few cells along z: visit(ids of the grains in it, all candidates in it and around it).
+  template <class Visit>
+  void for_each_stretch(Visit&& visit) const {
+    constexpr int longest = 6;   // [cells]
+    Candidates around;
+    for (int x = 0; x < count_[0]; ++x)
+      for (int y = 0; y < count_[1]; ++y)
+        for (int z = 0; z < count_[2]; z += longest) {
+          const int last = std::min(z + longest, count_[2]);
+          const std::size_t column = index(x, y), first = start_[column + z], end = start_[column + last];
+          if (first == end) continue;
+          gather_around(x, y, z, last, around);
+          visit(std::span(grains_.id).subspan(first, end - first), around);
         }
-      }
   }
 
  private:
+  void gather_around(int x, int y, int z, int last, Candidates& around) const {
+    around.resize(0);
+    std::array<int, 3> xs{}, ys{};
+    const int many_x = neighbours(x, 0, xs), many_y = neighbours(y, 1, ys);
+    const auto append = [&](std::size_t column, int from, int to) {
+      around.append(grains_, start_[column + from], start_[column + to]);
+    };
+    for (int a = 0; a < many_x; ++a)
+      for (int b = 0; b < many_y; ++b) {
+        const std::size_t column = index(xs[a], ys[b]);
+        append(column, std::max(z - 1, 0), std::min(last + 1, count_[2]));
+        if (!box_.periodic(2)) continue;   // cells beyond the seam, unless they are there already
+        if (z == 0 && last + 1 < count_[2]) append(column, count_[2] - 1, count_[2]);
+        if (last == count_[2] && z > 1) append(column, 0, 1);
+      }
+  }
+
   // Not more cells than a few per grain: a large box with few small grains must not fill the memory.
   void choose_counts(double edge, std::size_t grains) {
     const double most = 64 + 8.0 * static_cast<double>(grains);
@@ -105,6 +116,8 @@ class CellGrid {
       per_length_[c] = count_[c] / box_.length[c];
     }
   }
+
+  std::size_t index(int x, int y) const { return (static_cast<std::size_t>(x) * count_[1] + y) * count_[2]; }
 
   std::uint32_t cell_at(Vec3 position) const {
     std::uint32_t cell = 0;
@@ -188,14 +201,10 @@ void find_near_pairs(const PeriodicBox& box, std::span<const Vec3> position, std
   if (position.empty()) return;
   const CellGrid cells(box, position, reach);
   const NearTest may_be_near(box);
-  Candidates around;
-  std::vector<std::uint32_t> found;   // by cells
+  std::vector<std::uint32_t> found;   // by stretches of cells
   std::vector<Partners> partners_of(position.size());
   found.reserve(8 * position.size());
-  for (std::size_t cell = 0; cell < cells.cells(); ++cell) {
-    const auto own = cells.grains_of(cell);
-    if (own.empty()) continue;
-    cells.gather_around(cell, around);
+  cells.for_each_stretch([&](std::span<const std::uint32_t> own, const Candidates& around) {
     for (const std::uint32_t i : own) {
       const std::size_t first = found.size();
       may_be_near(around, position[i], reach[i], [&](std::uint32_t j) {
@@ -206,7 +215,7 @@ void find_near_pairs(const PeriodicBox& box, std::span<const Vec3> position, std
       std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end());
       partners_of[i] = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(found.size() - first)};
     }
-  }
+  });
   pairs.lower.reserve(found.size()), pairs.higher.reserve(found.size());
   for (std::uint32_t i = 0; i < position.size(); ++i) {
     const auto first = found.begin() + partners_of[i].first;
