@@ -127,12 +127,15 @@ Vec3 GrainDynamics::Workspace::advance(const GrainDrive& drive, double dt, doubl
 }
 
 double GrainDynamics::Workspace::deepest_overlap() const {
+  // The overlap per r_i + r_j times this is no less than the overlap per diameter of the smaller: few pairs need more.
+  const double most_unlike = list.most_unlike_radii();
   double deepest = 0;
-  for (std::size_t k = 0; k < list.pairs.size(); ++k) {
-    if (!(list.pairs.depth(k) > 0)) continue;
-    const double smaller =
-        std::min(bodies.spheres[list.pairs.ids.lower[k]].radius, bodies.spheres[list.pairs.ids.higher[k]].radius);
-    deepest = std::max(deepest, static_cast<double>(list.pairs.depth(k)) / (2 * smaller));
+  for (std::size_t pair = 0; pair < list.pairs.size(); ++pair) {
+    const PairBlock& b = list.pairs.blocks[pair / PairBlock::pairs];
+    const std::size_t k = pair % PairBlock::pairs;
+    if (!(b.depth[k] * b.inverse_radius_sum[k] * most_unlike > deepest)) continue;
+    const double smaller = std::min(bodies.spheres[b.lower[k]].radius, bodies.spheres[b.higher[k]].radius);
+    deepest = std::max(deepest, b.depth[k] / (2 * smaller));
   }
   for (const WallContact& c : list.wall_contacts)
     deepest = std::max(deepest, c.depth / (2 * bodies.spheres[c.grain].radius));

@@ -2,6 +2,7 @@
 #include "solver/grains/neighbour_list.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "solver/grains/film_law.hpp"
 
@@ -84,7 +85,7 @@ void NeighbourList::rebuild(const Bodies& bodies, double dt, const ContactHistor
   const std::size_t n = bodies.size();
   origin_.resize(n), inverse_skin_.resize(n), radius_.resize(n), inverse_mass_.resize(n), reach_.resize(n),
       fixed_.resize(n);
-  double largest = 0;
+  double largest = 0, smallest = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < n; ++i) {
     const Sphere& sphere = bodies.spheres[i];
     const double skin = skin_of(sphere, bodies.motions[i], dt);
@@ -94,8 +95,9 @@ void NeighbourList::rebuild(const Bodies& bodies, double dt, const ContactHistor
     inverse_mass_[i] = bodies.motions[i].inverse_mass;
     reach_[i] = sphere.radius + skin + (films_ ? film_reach * sphere.radius : 0);
     fixed_[i] = bodies.motions[i].inverse_mass == 0;
-    largest = std::max(largest, 2 * sphere.radius);
+    largest = std::max(largest, 2 * sphere.radius), smallest = std::min(smallest, 2 * sphere.radius);
   }
+  most_unlike_radii_ = (1 + largest / smallest) / 2 * (1 + 1e-6);
   travelled_ = 0;
   check_periodic_sides(box_, largest);
   list_pairs(bodies);
@@ -174,7 +176,13 @@ void NeighbourList::place_loads(std::size_t grains) {
 }
 
 void NeighbourList::recall(const ContactHistory& history) {
-  if (history != saved_) load(history);
+  const auto same = [this](const auto& given, const auto& kept) {
+    return given.size() == std::min(kept_count_, kept.size()) && std::equal(given.begin(), given.end(), kept.begin());
+  };
+  if (same(history.lower, kept_.lower) && same(history.higher, kept_.higher) && same(history.spring, kept_.spring) &&
+      same(history.damping, kept_.damping) && same(history.rolling, kept_.rolling))
+    return;
+  load(history);
 }
 
 void NeighbourList::load(const ContactHistory& history) {
@@ -214,33 +222,40 @@ void NeighbourList::load(const ContactHistory& history) {
   }
 }
 
+/// Without a branch on what touches: every candidate is written, and overwritten by the next if it is apart.
 void NeighbourList::save(ContactHistory& history) {
-  saved_.lower.clear(), saved_.higher.clear(), saved_.spring.clear(), saved_.damping.clear(), saved_.rolling.clear();
-  for (auto* ids : {&saved_.lower, &saved_.higher}) ids->reserve(pairs.size() + wall_contacts.size());
-  saved_.spring.reserve(pairs.size() + wall_contacts.size());
-  std::size_t touch = 0;
-  const auto walls_of_grains_below = [&](std::uint32_t grain) {
+  const std::size_t most = pairs.size() + wall_contacts.size() + 1;
+  kept_.lower.resize(most), kept_.higher.resize(most), kept_.spring.resize(most);
+  kept_.damping.resize(wet_ ? most : 0), kept_.rolling.resize(rolls_ ? most : 0);
+  std::size_t n = 0, touch = 0;
+  const auto keep_walls_of_grains_below = [&](std::uint32_t grain) {
     for (; touch < wall_contacts.size() && wall_contacts[touch].grain < grain; ++touch) {
       const WallContact& c = wall_contacts[touch];
-      if (!(c.depth > 0)) continue;
-      saved_.lower.push_back(c.grain), saved_.higher.push_back(static_cast<std::uint32_t>(walls_[c.wall].name));
-      saved_.spring.push_back(c.spring);
-      if (wet_) saved_.damping.push_back(c.damping);
-      if (rolls_) saved_.rolling.push_back(c.rolling);
+      kept_.lower[n] = c.grain, kept_.higher[n] = static_cast<std::uint32_t>(walls_[c.wall].name);
+      kept_.spring[n] = c.spring;
+      if (wet_) kept_.damping[n] = c.damping;
+      if (rolls_) kept_.rolling[n] = c.rolling;
+      n += c.depth > 0;
     }
   };
   for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
     const PairBlock& b = pairs.blocks[pair / PairBlock::pairs];
     const std::size_t k = pair % PairBlock::pairs;
-    if (!(b.depth[k] > 0)) continue;
-    walls_of_grains_below(b.lower[k]);
-    saved_.lower.push_back(b.lower[k]), saved_.higher.push_back(b.higher[k]);
-    saved_.spring.push_back({b.spring_x[k], b.spring_y[k], b.spring_z[k]});
-    if (wet_) saved_.damping.push_back(pairs.damping(pair));
-    if (rolls_) saved_.rolling.push_back(pairs.rolling[pair]);
+    keep_walls_of_grains_below(b.lower[k]);
+    kept_.lower[n] = b.lower[k], kept_.higher[n] = b.higher[k];
+    kept_.spring[n] = {b.spring_x[k], b.spring_y[k], b.spring_z[k]};
+    if (wet_) kept_.damping[n] = pairs.damping(pair);
+    if (rolls_) kept_.rolling[n] = pairs.rolling[pair];
+    n += b.depth[k] > 0;
   }
-  walls_of_grains_below(UINT32_MAX);
-  history = saved_;
+  keep_walls_of_grains_below(UINT32_MAX);
+  kept_count_ = n;
+  const auto hand_over = [n](auto& to, const auto& from) {
+    to.assign(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(std::min(n, from.size())));
+  };
+  hand_over(history.lower, kept_.lower), hand_over(history.higher, kept_.higher);
+  hand_over(history.spring, kept_.spring);
+  hand_over(history.damping, kept_.damping), hand_over(history.rolling, kept_.rolling);
 }
 
 }   // namespace bedload

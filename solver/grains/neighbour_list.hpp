@@ -76,6 +76,8 @@ class NeighbourList {
   std::size_t blocks_of_grains_below(std::size_t grain) const {
     return (first_pair_[grain] + PairBlock::pairs - 1) / PairBlock::pairs;
   }
+  /// At least (r_i + r_j)/(2 min(r_i, r_j)) of any pair, with room for rounding to float [-].
+  double most_unlike_radii() const { return most_unlike_radii_; }
   std::span<const double> inverse_skins() const { return inverse_skin_; }   // [1/m]; 0 for fixed grains
   const std::vector<FlatWall>& walls() const { return walls_; }
   const PeriodicBox& box() const { return box_; }
@@ -95,14 +97,16 @@ class NeighbourList {
   const WetRestitution* wet_;
   bool films_, rolls_;
 
-  std::vector<std::uint32_t> first_pair_;       // of each grain as the lower one, and one beyond the last
+  std::vector<std::uint32_t> first_pair_;   // of each grain as the lower one, and one beyond the last
+  double most_unlike_radii_ = 1;
   double travelled_ = 0;                        // no grain has gone further since the list was made [skins]
   std::vector<Vec3> origin_;                    // where a grain was when the list was made [m]
   std::vector<double> inverse_skin_;            // [1/m]
   std::vector<double> radius_, inverse_mass_;   // then
   std::vector<double> reach_;                   // radius and skin, and a pair's part of a film [m]
   std::vector<std::uint8_t> fixed_;
-  ContactHistory saved_;   // what `save` gave last: the list holds it
+  ContactHistory kept_;   // its first kept_count_: what `save` gave last, and the list holds
+  std::size_t kept_count_ = 0;
 };
 
 }   // namespace bedload
