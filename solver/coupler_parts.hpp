@@ -53,6 +53,7 @@ struct Coupler::Parts {
   Stencils stencils;
   VoidFraction before, after;
   FaceFields acceleration, impulse, flux;
+  double courant_rate = 0;   // of u^n: cells that it crosses per time [1/s]
   SolidFlux solid_flux;
   Woven woven, woven_too;
   MixtureResponse response;
@@ -94,7 +95,6 @@ struct Coupler::Parts {
   Vec3 turning_at(std::size_t grain) const;
   void sample_at_grains(State&);
   double choose_step(const State&, double longest);
-  double courant_rate(const FaceFields& velocity) const;
   int limit_by_grains(const State&, double& step);
   void shorten(double& step, double limit, StepLimit by);
   void predict_grains(const State&, double dt);
@@ -112,8 +112,8 @@ struct Coupler::Parts {
   void transport_momentum(State&, double dt);
   void carry_liquid(State&, double dt);
   void project(State&, double dt);
-  void hold_net_flux(State&, double dt);
-  void kick_mixture(State&, double dt);
+  double uniform_gradient(State&, double dt);
+  void kick_mixture(State&, double dt, double uniform);
   Vec3 weight(double density) const;
 };
 

@@ -2,6 +2,7 @@
 #include "solver/coupler_parts.hpp"
 
 #include "solver/fluid/boundaries.hpp"
+#include "solver/fluid/courant.hpp"
 #include "solver/fluid/face_loops.hpp"
 #include "solver/fluid/operators.hpp"
 #include "solver/fluid/rows.hpp"
@@ -14,19 +15,24 @@ namespace {
 constexpr double pressure_tolerance = 1e-4;
 constexpr double least_divergence = 1e-9;   // volume change per step that is not worth an iteration
 
-bool all_finite(const State& state) {
-  LaneSum nothing;   // no number, if one is not finite
-  const auto add = [&](const std::vector<double>& all) {
-    nothing.add_row(int(all.size()), [&](int n) { return 0 * all[n]; });
-  };
-  add(state.fluid.velocity.x.values), add(state.fluid.velocity.y.values), add(state.fluid.velocity.z.values);
-  add(state.fluid.pressure.values);
-  bool finite = nothing.value() == 0;
-  const Grains& g = state.grains;
+bool all_finite(const Grains& g) {
+  bool finite = true;
   for (const auto* each : {&g.velocity, &g.spin, &g.mean_contact_force, &g.mean_contact_torque})
     for (const Vec3& v : *each) finite &= std::isfinite(norm2(v));
   return finite;
 }
+
+/// Is told a row of numbers at a time; sums what is no number if one of them is not finite.
+class Finite {
+ public:
+  void add_row(const double* values, int length) noexcept {
+    nothing_.add_row(length, [=](int k) { return 0 * values[k]; });
+  }
+  explicit operator bool() const noexcept { return nothing_.value() == 0; }
+
+ private:
+  LaneSum nothing_;
+};
 
 }   // namespace
 
@@ -34,10 +40,16 @@ bool all_finite(const State& state) {
 void Coupler::Parts::project(State& state, double dt) {
   Stopwatch watch(times.pressure);
   if (failed()) return;
+  const double per_dt = 1 / dt;
   for (int c = 0; c < 3; ++c) {
-    double* f = flux.component(c);
-    const double *eps = before.face.component(c), *u = state.fluid.velocity.component(c), *j = solid_flux.component(c);
-    for_each_unknown_face(grid, c, [&](std::size_t n) { f[n] = (j[n] + eps[n] * u[n]) / dt; });
+    double* const whole = flux.component(c);
+    const double *eps = before.face.component(c), *u = state.fluid.velocity.component(c);
+    for_each_face_row(grid, c, [=](std::size_t row, int length) {
+      double* __restrict f = whole + row;
+      for (int k = 0; k < length; ++k) f[k] = eps[row + k] * u[row + k] * per_dt;
+    });
+    for_each_face_within(grid, c, solid_flux.reach,
+                         [=, j = solid_flux.component(c)](std::size_t n) { whole[n] += j[n] * per_dt; });
   }
   fill_face_ghosts(grid, flux);
   fill_face_ghosts(grid, response.coefficient);
@@ -49,47 +61,65 @@ void Coupler::Parts::project(State& state, double dt) {
   health.pressure_iterations = solve.iterations;
   health.converged &= solve.converged;
   health.divergence = solve.residual;
-  gradient(grid, correction, kick);
-  hold_net_flux(state, dt);
-  kick_mixture(state, dt);
-  for (std::size_t n = 0; n < correction.values.size(); ++n) state.fluid.pressure[n] += correction[n];
-  health.finite = all_finite(state);
-  health.cfl_after = dt * courant_rate(state.fluid.velocity);
+  kick_mixture(state, dt, uniform_gradient(state, dt));
+  Finite finite;
+  for_each_cell_row(grid, [&](std::size_t row, int length) {
+    double* __restrict q = &state.fluid.pressure[row];
+    const double* __restrict dq = &correction[row];
+    for (int k = 0; k < length; ++k) q[k] += dq[k];
+    finite.add_row(q, length);
+  });
+  health.finite &= bool(finite) && all_finite(state.grains);
 }
 
 /// In a box without bottom or top, weight is borne by a uniform gradient: the one that lets just the volume pass that is
-/// asked for, or none.
-void Coupler::Parts::hold_net_flux(State& state, double dt) {
-  if (!grid.periodic(2) || (scene.bed.gravity.z == 0 && scene.drive.kind != FlowRamp::Kind::through_flow)) return;
-  double* const gradient_z = kick.component(2);
-  const double *f = flux.component(2), *both = response.coefficient.component(2);
-  const double asked = state.search.through_flow / dt;
-  const double net = sum_over_faces(grid, 2, [=](std::size_t n) { return f[n] - both[n] * gradient_z[n] - asked; });
+/// asked for, or none. What has to be added to the kick along z.
+double Coupler::Parts::uniform_gradient(State& state, double dt) {
+  if (!grid.periodic(2) || (scene.bed.gravity.z == 0 && scene.drive.kind != FlowRamp::Kind::through_flow)) return 0;
+  const double *f = flux.component(2), *both = response.coefficient.component(2), *dq = correction.data();
+  const double asked = state.search.through_flow / dt, per_h = 1 / grid.h.z;
+  const double net =
+      sum_over_faces(grid, 2, [=](std::size_t n) { return f[n] - both[n] * ((dq[n] - dq[n - 1]) * per_h) - asked; });
   const double uniform = net / sum_over_faces(grid, 2, [=](std::size_t n) { return both[n]; });
-  for_each_unknown_face(grid, 2, [=](std::size_t n) { gradient_z[n] += uniform; });
   state.fluid.column_gradient -= uniform;
+  return uniform;
 }
 
-/// u_f -= T cf (grad dq)_f; v_p -= T sum w cp grad dq for every grain that is not fixed.
-void Coupler::Parts::kick_mixture(State& state, double dt) {
+/// u_f -= T cf (grad dq)_f; v_p -= T sum w cp grad dq for every grain that is not fixed. `uniform` comes on top of the
+/// gradient along z.
+void Coupler::Parts::kick_mixture(State& state, double dt, double uniform) {
   const double rho = scene.bed.fluid.density;
+  const bool grains = state.grains.size() > 0, mobile = health.substeps > 0;
+  const double pressed = model_b() ? 0 : 1;   // solid that pressure acts on
   Vec3 on_fixed;
+  Courant courant;
+  Finite finite;
   for (int c = 0; c < 3; ++c) {
-    double *k = kick.component(c), *u = state.fluid.velocity.component(c);
-    const double *cf = response.fluid.component(c), *cp = response.grains.component(c),
-                 *locked = response.locked_exchange.component(c), *eps = before.face.component(c),
-                 *phi = response.mobile_fraction.component(c);
-    if (state.grains.size() > 0)
-      on_fixed[c] = sum_over_faces(grid, c, [=, b = model_b()](std::size_t n) {
-        return -k[n] * (locked[n] * cf[n] + (b ? 0 : 1 - eps[n] - phi[n]));
-      });
-    for_each_unknown_face(grid, c, [=](std::size_t n) {
-      u[n] -= dt * cf[n] * k[n];
-      k[n] *= cp[n];
+    const std::ptrdiff_t s = grid.stride(c);
+    const double per_h = 1 / grid.h[c], added = c == 2 ? uniform : 0;
+    for_each_face_row(grid, c, [&](std::size_t row, int length) {
+      double* __restrict k = kick.component(c) + row;
+      double* __restrict u = state.fluid.velocity.component(c) + row;
+      const double *dq = &correction[row], *cf = response.fluid.component(c) + row;
+      for (int m = 0; m < length; ++m) k[m] = (dq[m] - dq[m - s]) * per_h + added;
+      for (int m = 0; m < length; ++m) u[m] -= dt * cf[m] * k[m];
+      courant.add_row(c, u, length);
+      finite.add_row(u, length);
+      if (!grains) return;
+      LaneSum sum;
+      const double *locked = response.locked_exchange.component(c) + row, *eps = before.face.component(c) + row,
+                   *phi = response.mobile_fraction.component(c) + row;
+      sum.add_row(length, [=](int m) { return -k[m] * (locked[m] * cf[m] + pressed * (1 - eps[m] - phi[m])); });
+      on_fixed[c] += sum.value();
+      if (!mobile) return;
+      const double* cp = response.grains.component(c) + row;
+      for (int m = 0; m < length; ++m) k[m] *= cp[m];
     });
   }
+  health.cfl_after = dt * courant.rate(grid.h);
+  health.finite = bool(finite);
   books.on_grains += rho * grid.cell_volume() * on_fixed;
-  if (health.substeps == 0) return;
+  if (!mobile) return;
   woven.read(stencils.reach, smoothing.seen(kick, seen));
   const Strides stride(grid);
   for (std::size_t p = 0; p < state.grains.size(); ++p) {

@@ -2,6 +2,7 @@
 #include "solver/coupler_parts.hpp"
 
 #include "solver/fluid/boundaries.hpp"
+#include "solver/fluid/courant.hpp"
 #include "solver/fluid/face_loops.hpp"
 #include "solver/fluid/operators.hpp"
 #include "solver/fluid/rows.hpp"
@@ -28,12 +29,18 @@ void Coupler::Parts::accelerate_faces(State& state) {
   fill_centre_ghosts(grid, state.fluid.pressure);
   bedload::acceleration(grid, state.fluid.pressure, u, scene.bed.fluid.viscosity, drive(state), acceleration);
   deposit_solid_flux(grid, state.grains, stencils, solid_flux, smoothing);
+  Courant courant;
   for (int c = 0; c < 3; ++c) {
-    double* f = flux.component(c);
+    double* const f = flux.component(c);
     const double *eps = before.face.component(c), *v = u.component(c);
-    for_each_unknown_face(grid, c, [=](std::size_t n) { f[n] = eps[n] * v[n]; });
+    for_each_face_row(grid, c, [=, &courant](std::size_t row, int length) {
+      double* __restrict out = f + row;
+      for (int k = 0; k < length; ++k) out[k] = eps[row + k] * v[row + k];
+      courant.add_row(c, v + row, length);
+    });
     for_each_face_within(grid, c, solid_flux.reach, [&, j = solid_flux.component(c)](std::size_t n) { f[n] += j[n]; });
   }
+  courant_rate = courant.rate(grid.h);
   if (turbulence) {   // a bed is as rough as its grains are large
     const double z_b = state.search.bed_height;
     turbulence->find(u, state.search.lid_speed, z_b, z_b > 0 ? scene.bed.grains.diameter : scene.bottom_roughness);

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "solver/fluid/face_loops.hpp"
-
 namespace bedload {
 namespace {
 
@@ -52,30 +50,16 @@ void Coupler::Parts::shorten(double& step, double limit, StepLimit by) {
   health.limited_by = by;
 }
 
-/// Cells that the flow crosses per time, summed over the directions [1/s]: CFL = rate x step.
-double Coupler::Parts::courant_rate(const FaceFields& velocity) const {
-  double rate = 0;
-  for (int c = 0; c < 3; ++c) {
-    LaneMax fastest;
-    for_each_face_row(grid, c, [&, u = velocity.component(c)](std::size_t row, int length) {
-      fastest.add_row(length, [v = u + row](int k) { return std::abs(v[k]); });
-    });
-    rate += fastest.value() / grid.h[c];
-  }
-  return rate;
-}
-
 /// The longest step, in whole DEM steps, that every limit allows (docs/physics_coupling.md, "The fluid step").
 double Coupler::Parts::choose_step(const State& state, double longest) {
-  const double rate = courant_rate(state.fluid.velocity);
   double step = longest;
-  if (rate > 0) shorten(step, largest_cfl / rate, StepLimit::cfl);
+  if (courant_rate > 0) shorten(step, largest_cfl / courant_rate, StepLimit::cfl);
   if (any_mobile(state.grains)) {
     const int least = limit_by_grains(state, step);
     health.substeps = std::max(least, static_cast<int>(step / scene.bed.dem_step * (1 + 1e-12)));
     step = std::min(step, health.substeps * scene.bed.dem_step);
   }
-  health.cfl = step * rate;
+  health.cfl = step * courant_rate;
   health.divergence_left *= step;
   return health.dt = step;
 }
