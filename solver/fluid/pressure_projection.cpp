@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -20,22 +21,32 @@ namespace {
 constexpr int most_iterations = 200;
 constexpr double trusted_reduction = 1e-4;   // over which the recurrence of single precision follows the true residual
 
-/// w = c/h^2 on faces 0..n, zero on walls; returns the largest.
-double set_couplings(const StaggeredGrid& g, const FaceFields& coefficient, FaceFields& w) {
-  double largest = 0;
+/// w = c/h^2 on faces 0..n, zero on walls; returns whether that changed w.
+bool set_couplings(const StaggeredGrid& g, const FaceFields& coefficient, FaceFields& w) {
+  bool changed = false;
   for (int c = 0; c < 3; ++c) {
     const double per_h2 = 1 / (g.h[c] * g.h[c]);
     for_each_face_row(g, c, [&](std::size_t row, int length) {
       const double* __restrict from = coefficient.component(c) + row;
       double* __restrict to = w.component(c) + row;
-      for (int k = 0; k < length; ++k) {
-        to[k] = from[k] * per_h2;
-        largest = std::max(largest, to[k]);
-      }
+      std::int64_t differ = 0;   // as wide as what is compared: vectorises
+      for (int k = 0; k < length; ++k) differ |= from[k] * per_h2 != to[k] ? 1 : 0;
+      if (!differ) return;
+      for (int k = 0; k < length; ++k) to[k] = from[k] * per_h2;
+      changed = true;
     });
   }
-  fill_face_ghosts(g, w);
-  return largest;
+  if (changed) fill_face_ghosts(g, w);
+  return changed;
+}
+
+double largest_coupling(const StaggeredGrid& g, const FaceFields& w) {
+  LaneMax largest;
+  for (int c = 0; c < 3; ++c)
+    for_each_face_row(g, c, [&, value = w.component(c)](std::size_t row, int length) {
+      largest.add_row(length, [v = value + row](int k) { return v[k]; });
+    });
+  return largest.value();
 }
 
 /// A p = -div(c grad p) on one row of cells; p has its ghosts filled wherever w is not zero.
@@ -67,6 +78,16 @@ struct PressureSolver::Levels {
 
   double mean(const Field<Centre>& f) const {
     return sum_over_cells(grid, [&](std::size_t n) { return f[n]; }) / grid.cell_count();
+  }
+
+  /// The matrix of the conjugate gradients and its hierarchy, anew only where the coefficient is another one.
+  void set_matrix(const FaceFields& coefficient) {
+    hierarchy_stands = !set_couplings(grid, coefficient, couplings) && hierarchy_stands;
+    if (hierarchy_stands) return;
+    const double largest = largest_coupling(grid, couplings);
+    matrix_scale = largest > 0 ? 1 / largest : 1;
+    multigrid.set_couplings(couplings, matrix_scale);
+    hierarchy_stands = true;
   }
 
   /// r = -(rhs - mean) - A p in double precision, in units of 1/scale; returns |r|.
@@ -138,6 +159,8 @@ struct PressureSolver::Levels {
   Multigrid multigrid;
   const SplitGrid at;
   FaceFields couplings;
+  double matrix_scale = 1;
+  bool hierarchy_stands = false;
   std::vector<float> direction, image;   // d and A d, in the layout of the multigrid
   PlaneSums sums;
   std::vector<double> row;
@@ -151,7 +174,7 @@ PressureSolve PressureSolver::solve(const FaceFields& coefficient, const Field<C
                                     double relative, double absolute) {
   Levels& s = *levels_;
   const StaggeredGrid& g = s.grid;
-  const double largest = set_couplings(g, coefficient, s.couplings);
+  s.set_matrix(coefficient);
   const double mean_rhs = s.mean(rhs);
   const double rhs_norm =
       std::sqrt(sum_over_cells(g, [&](std::size_t n) { return (rhs[n] - mean_rhs) * (rhs[n] - mean_rhs); }));
@@ -161,8 +184,6 @@ PressureSolve PressureSolver::solve(const FaceFields& coefficient, const Field<C
   const double scale = rhs_norm > 0 ? 1 / rhs_norm : 1;
   double norm = s.find_residual(rhs, mean_rhs, p, scale);
   if (norm > target) {
-    const double matrix_scale = largest > 0 ? 1 / largest : 1;
-    s.multigrid.set_couplings(s.couplings, matrix_scale);
     std::fill(s.direction.begin(), s.direction.end(), 0.0f);
     double rz_before = std::numeric_limits<double>::infinity();
     while (norm > target && report.iterations < most_iterations) {
@@ -172,7 +193,7 @@ PressureSolve PressureSolver::solve(const FaceFields& coefficient, const Field<C
         const double rz = s.multigrid.cycle();
         const double dad = s.advance_direction(rz / rz_before, step, p);
         norm = s.reduce_residual(rz / dad) / scale;
-        step = rz / dad * matrix_scale / scale;
+        step = rz / dad * s.matrix_scale / scale;
         rz_before = rz;
         ++report.iterations;
       } while (norm > goal && report.iterations < most_iterations);
@@ -181,6 +202,7 @@ PressureSolve PressureSolver::solve(const FaceFields& coefficient, const Field<C
       norm = s.find_residual(rhs, mean_rhs, p, scale);
     }
   }
+  s.hierarchy_stands &= std::isfinite(norm);   // what is not finite stays behind on the levels until they are set anew
   s.finish(p);
   report.residual = rhs_norm > 0 ? norm / rhs_norm : norm;
   report.converged = norm <= target;

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <limits>
 #include <tuple>
 
 #include "fields.hpp"
@@ -113,6 +114,26 @@ TEST(PressureSolver, RemembersNothingOfEarlierSolvesNotEvenOfOnesThatFailed) {
   EXPECT_FALSE(solver.solve(broken, rhs, other, 1e-4, 0).converged);
   solver.solve(c, rhs, used, 1e-9, 0);
   EXPECT_EQ(fresh, used);
+}
+
+TEST(PressureSolver, SolvesWithAMatrixThatItHasAlreadyAsIfItWereNew) {
+  for (const int nx : {12, 13}) {   // without and with cells of one colour that meet at a seam
+    const StaggeredGrid g{{nx, 8, 18}, {1, 1, 0.5}, {periodic, periodic, wall}};
+    const FaceFields c = random_faces(g, 1, 0.01, 1);
+    const Field<Centre> rhs = random_centres(g, 2, -1, 1);
+    Field<Centre> fresh(g), used(g), other(g), lost(g);
+    PressureSolver(g).solve(c, rhs, fresh, 1e-9, 0);
+    PressureSolver solver(g);
+    EXPECT_TRUE(solver.solve(c, random_centres(g, 6, -3, 5), other, 1e-7, 0).converged);
+    solver.solve(c, rhs, used, 1e-9, 0);
+    EXPECT_EQ(fresh, used);
+    Field<Centre> endless = rhs;
+    endless[g.index(3, 3, 3)] = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(solver.solve(c, endless, lost, 1e-9, 0).converged);
+    used = Field<Centre>(g);
+    solver.solve(c, rhs, used, 1e-9, 0);
+    EXPECT_EQ(fresh, used);
+  }
 }
 
 TEST(PressureSolver, NeedsNoIterationWhenTheFirstGuessIsTheSolution) {
