@@ -1,4 +1,4 @@
-// Sources row by row, then running sums along lines; neighbouring lines are summed together.
+// Sources, then their running sums along lines, a plane of lines at a time; neighbouring lines are summed together.
 #include "solver/fluid/flux_closure.hpp"
 
 #include <algorithm>
@@ -7,20 +7,11 @@
 namespace bedload {
 namespace {
 
-/// S on the faces 0..n-1 of a periodic direction, 0..n between walls.
-void find_sources(const StaggeredGrid& g, int c, const double* divergence, const double* before, const double* after,
-                  double dt, double* source) noexcept {
-  std::array<int, 3> faces = g.cells;
-  if (!g.periodic(c)) ++faces[c];
-  const std::ptrdiff_t s = g.stride(c);
-  const double per_dt = 1 / dt;
-  for (int i = 0; i < faces[0]; ++i)
-    for (int j = 0; j < faces[1]; ++j) {
-      const std::size_t row = g.index(i, j, 0);
-      const double *div = divergence + row, *eps = before + row, *next = after + row;
-      double* __restrict out = source + row;
-      for (int k = 0; k < faces[2]; ++k) out[k] = (next[k] - eps[k]) * per_dt + 0.5 * (div[k - s] + div[k]);
-    }
+/// S = d(eps)/dt + mean of div F over the volume, on a row of faces whose lower cells are s before their upper ones.
+void find_sources(std::ptrdiff_t s, const double* __restrict divergence, const double* __restrict before,
+                  const double* __restrict after, double per_dt, int length, double* __restrict source) noexcept {
+  for (int k = 0; k < length; ++k)
+    source[k] = (after[k] - before[k]) * per_dt + 0.5 * (divergence[k - s] + divergence[k]);
 }
 
 /// `lanes` lines side by side: position i of lane l is at first + i step + l lane_step.
@@ -57,25 +48,28 @@ void integrate(Lines<LaneStep> lines, int cells, bool periodic, double h, double
   for (int l = 0; l < lines.lanes; ++l) lines.at(-1, l) = lines.at(cells - 1, l);
 }
 
+using Contiguous = std::integral_constant<std::ptrdiff_t, 1>;
+
 }   // namespace
 
-void close_flux(const StaggeredGrid& g, int c, const Field<Centre>& divergence, const double* void_before,
+void close_flux(const StaggeredGrid& g, int c, int plane, const Field<Centre>& divergence, const double* void_before,
                 const double* void_after, double dt, double* correction, std::vector<double>& sums) {
-  find_sources(g, c, divergence.data(), void_before, void_after, dt, correction);
+  // Faces 0..n-1 of a periodic direction, 0..n between walls.
+  const int faces = g.cells[c] + (g.periodic(c) ? 0 : 1);
+  const int rows = c == 2 ? g.cells[1] : faces, length = c == 2 ? faces : g.cells[2];
+  const std::ptrdiff_t next_row = c == 2 ? g.stride(1) : g.stride(c);
+  const std::size_t first = g.index(0, 0, 0) + plane * g.stride(c == 0 ? 1 : 0);
+  for (int r = 0; r < rows; ++r) {
+    const std::size_t row = first + r * next_row;
+    find_sources(g.stride(c), divergence.data() + row, void_before + row, void_after + row, 1 / dt, length,
+                 correction + row);
+  }
   const std::size_t lanes = std::max(g.cells[1], g.cells[2]);
   sums.resize(2 * lanes);
-  double *mean = sums.data(), *running = mean + lanes, *origin = correction + g.index(0, 0, 0);
-  if (c == 2) {
-    for (int i = 0; i < g.cells[0]; ++i)
-      integrate(Lines<std::ptrdiff_t>{origin + i * g.stride(0), 1, g.stride(1), g.cells[1]}, g.cells[2], g.periodic(2),
-                g.h.z, mean, running);
-    return;
-  }
-  using Contiguous = std::integral_constant<std::ptrdiff_t, 1>;
-  const int other = 1 - c;
-  for (int m = 0; m < g.cells[other]; ++m)
-    integrate(Lines<Contiguous>{origin + m * g.stride(other), g.stride(c), {}, g.cells[2]}, g.cells[c], g.periodic(c),
-              g.h[c], mean, running);
+  double *mean = sums.data(), *running = mean + lanes, *lines = correction + first;
+  if (c == 2)
+    integrate(Lines<std::ptrdiff_t>{lines, 1, next_row, rows}, g.cells[2], g.periodic(2), g.h.z, mean, running);
+  else integrate(Lines<Contiguous>{lines, next_row, {}, length}, g.cells[c], g.periodic(c), g.h[c], mean, running);
 }
 
 }   // namespace bedload

@@ -66,10 +66,11 @@ void advance_row(const Sides& side, Vec3 dt_per_h, const double* __restrict befo
 }
 
 /// Carries component c in one pass: each side is found once and kept until both of its volumes have met it, along x for a
-/// plane, along y for a row.
+/// plane, along y for a row. Lines along y and z lie in one plane, which is closed when its turn comes; those along x do not.
+template <class Close>
 void carry(const StaggeredGrid& g, int c, const FaceFields& flux, const double* correction, const double* before,
-           const double* after, const double* carried, double dt, double* velocity,
-           std::vector<double>& sides) noexcept {
+           const double* after, const double* carried, double dt, double* velocity, std::vector<double>& sides,
+           Close&& close) {
   const int i0 = c == 0 ? g.first_face(0) : 0, j0 = c == 1 ? g.first_face(1) : 0, k0 = c == 2 ? g.first_face(2) : 0;
   const int length = g.cells[2] - k0;
   const std::size_t width = g.cells[2] + 1;
@@ -78,8 +79,10 @@ void carry(const StaggeredGrid& g, int c, const FaceFields& flux, const double* 
   const auto find = [&](int t, std::size_t upper, int count, double* out) {
     row_of_sides(g, c, t, upper, count, flux.component(t), correction, carried, out);
   };
+  for (int j = 0; c == 0 && j < g.cells[1]; ++j) close(j);
   for (int j = j0; j < g.cells[1]; ++j) find(0, g.index(i0, j, k0), length, x_low + j * width);
   for (int i = i0; i < g.cells[0]; ++i) {
+    if (c != 0) close(i);
     find(1, g.index(i, j0, k0), length, y_low);
     for (int j = j0; j < g.cells[1]; ++j) {
       const std::size_t row = g.index(i, j, k0);
@@ -125,8 +128,8 @@ void transport(const StaggeredGrid& g, const FaceFields& flux, const FaceFields&
   double* correction = scratch.correction.data();
   for (int c = 0; c < 3; ++c) {
     const double *before = void_before.component(c), *after = void_after.component(c);
-    close_flux(g, c, scratch.divergence, before, after, dt, correction, scratch.sums);
-    carry(g, c, flux, correction, before, after, carried.component(c), dt, velocity.component(c), scratch.sides);
+    carry(g, c, flux, correction, before, after, carried.component(c), dt, velocity.component(c), scratch.sides,
+          [&](int plane) { close_flux(g, c, plane, scratch.divergence, before, after, dt, correction, scratch.sums); });
   }
 }
 

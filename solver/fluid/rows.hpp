@@ -53,15 +53,19 @@ class LaneMax {
  public:
   template <class Term>
   void add_row(int length, Term&& term) noexcept {
-    const auto add = [&](int lane, double value) { lanes_[lane] = value > lanes_[lane] ? value : lanes_[lane]; };
+    double lanes[8];   // not the members: what may be elsewhere than in registers does not vectorise
+    std::copy_n(lanes_, 8, lanes);
     int k = 0;
     for (; k + 8 <= length; k += 8)
-      for (int lane = 0; lane < 8; ++lane) add(lane, term(k + lane));
-    for (int lane = 0; k < length; ++k, ++lane) add(lane, term(k));
+      for (int lane = 0; lane < 8; ++lane) lanes[lane] = larger(term(k + lane), lanes[lane]);
+    for (int lane = 0; k < length; ++k, ++lane) lanes[lane] = larger(term(k), lanes[lane]);
+    std::copy_n(lanes, 8, lanes_);
   }
   double value() const noexcept { return *std::max_element(lanes_, lanes_ + 8); }
 
  private:
+  static double larger(double value, double than) noexcept { return value > than ? value : than; }
+
   double lanes_[8] = {};
 };
 
