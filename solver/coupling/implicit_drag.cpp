@@ -1,5 +1,6 @@
 #include "solver/coupling/implicit_drag.hpp"
 
+#include <array>
 #include <limits>
 
 #include "solver/fluid/boundaries.hpp"
@@ -9,18 +10,21 @@
 namespace bedload {
 namespace {
 
-/// Sum of value(c, padded index) over the unknown faces of a box: one partial sum per x-plane, added in plane order.
-template <class Value>
-double sum_within(const StaggeredGrid& g, const Reach& box, Value&& value) {
-  double total = 0;
-  for (int c = 0; c < 3; ++c)
+/// Sums over the unknown faces of a box: one partial sum per x-plane, added in plane order. along(c) is
+/// what adds to each of several sums at padded index n of a face normal to c; side by side, no sum waits for another.
+template <std::size_t count, class Along>
+std::array<double, count> sums_within(const StaggeredGrid& g, const Reach& box, Along&& along) {
+  std::array<double, count> totals{};
+  for (int c = 0; c < 3; ++c) {
+    const auto add = along(c);
     for (Reach plane = box; plane.first[0] < box.last[0]; ++plane.first[0]) {
       plane.last[0] = plane.first[0] + 1;
-      double sum = 0;
-      for_each_face_within(g, c, plane, [&](std::size_t n) { sum += value(c, n); });
-      total += sum;
+      std::array<double, count> sums{};
+      for_each_face_within(g, c, plane, [&](std::size_t n) { add(n, sums); });
+      for (std::size_t s = 0; s < count; ++s) totals[s] += sums[s];
     }
-  return total;
+  }
+  return totals;
 }
 
 }   // namespace
@@ -114,8 +118,8 @@ double ImplicitDrag::move_free_fluid(const StaggeredGrid& g, const FaceFields& v
   return total;
 }
 
-/// image = A direction.
-void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction) {
+/// image = A direction. Returns direction . image.
+double ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction) {
   const Stencils& stencils = problem.stencils;
   const Strides stride(g);
   if (!stencils.empty()) woven_.read(stencils.reach, problem.smoothing.seen<FaceFields>(direction_, seen_));
@@ -134,55 +138,52 @@ void ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, con
     laplacian(g, direction_, laplacian_);
     if (problem.turbulence) problem.turbulence->add_force(direction_, -problem.step, image_);
   }
-  for (int c = 0; c < 3; ++c) {
-    double* y = image_.component(c);
-    const double *eps = void_fraction.component(c), *b = exchange_.component(c), *v = direction_.component(c),
-                 *l = laplacian_.component(c);
-    for_each_face_within(g, c, coupled_,
-                         [&](std::size_t n) { y[n] += (eps[n] + b[n]) * v[n] - problem.implicit_viscosity * l[n]; });
-  }
+  const auto finish = [&](int c) {
+    return [y = image_.component(c), eps = void_fraction.component(c), b = exchange_.component(c),
+            v = direction_.component(c), l = laplacian_.component(c),
+            viscosity = problem.implicit_viscosity](std::size_t n, auto& sum) {
+      y[n] += (eps[n] + b[n]) * v[n] - viscosity * l[n];
+      sum[0] += v[n] * y[n];
+    };
+  };
+  return sums_within<1>(g, coupled_, finish)[0];
 }
 
 int ImplicitDrag::solve(const StaggeredGrid& g, const DragProblem& problem, const FaceFields& void_fraction,
                         const FaceFields& impulse, FaceFields& velocity, std::span<Vec3> flow_velocity) {
   const double b_max = start(g, problem, void_fraction, impulse, velocity);
-  const auto each = [&](auto&& visit) {
-    for (int c = 0; c < 3; ++c) for_each_face_within(g, c, coupled_, [&](std::size_t n) { visit(c, n); });
-  };
-  const auto inner = [&](const FaceFields& a, const FaceFields& b) {
-    return sum_within(g, coupled_, [&](int c, std::size_t n) { return a.component(c)[n] * b.component(c)[n]; });
-  };
-  const auto inner_scaled = [&](const FaceFields& a, const FaceFields& scale) {
-    return sum_within(g, coupled_, [&](int c, std::size_t n) {
-      return a.component(c)[n] * a.component(c)[n] / scale.component(c)[n];
-    });
-  };
   std::copy(problem.flow_velocity.begin(), problem.flow_velocity.end(), flow_velocity.begin());
-  double left = inner(residual_, residual_);
+  auto [left, weighted] = sums_within<2>(g, coupled_, [&](int c) {
+    return [r = residual_.component(c), d = diagonal_.component(c)](std::size_t n, auto& sums) {
+      sums[0] += r[n] * r[n], sums[1] += r[n] * r[n] / d[n];
+    };
+  });
   const double first = left + move_free_fluid(g, void_fraction, impulse, velocity);
   const double goal = std::max(first * (0.01 / (1 + b_max)) * (0.01 / (1 + b_max)), std::numeric_limits<double>::min());
-  double weighted = inner_scaled(residual_, diagonal_), beta = 0;
+  double beta = 0;
   int iterations = 0;
   while (left > goal && iterations < ImplicitDrag::most_iterations) {
-    each([&](int c, std::size_t n) {
-      double& d = direction_.component(c)[n];
-      d = residual_.component(c)[n] / diagonal_.component(c)[n] + beta * d;
-    });
-    apply(g, problem, void_fraction);
-    const double step = weighted / inner(direction_, image_);
-    each([&](int c, std::size_t n) {
-      change_.component(c)[n] += step * direction_.component(c)[n];
-      residual_.component(c)[n] -= step * image_.component(c)[n];
+    for (int c = 0; c < 3; ++c)
+      for_each_face_within(g, c, coupled_,
+                           [=, v = direction_.component(c), r = residual_.component(c),
+                            d = diagonal_.component(c)](std::size_t n) { v[n] = r[n] / d[n] + beta * v[n]; });
+    const double step = weighted / apply(g, problem, void_fraction);
+    const auto next = sums_within<2>(g, coupled_, [&](int c) {
+      return [=, x = change_.component(c), r = residual_.component(c), v = direction_.component(c),
+              y = image_.component(c), d = diagonal_.component(c)](std::size_t n, auto& sums) {
+        x[n] += step * v[n];
+        r[n] -= step * y[n];
+        sums[0] += r[n] * r[n], sums[1] += r[n] * r[n] / d[n];
+      };
     });
     for (std::size_t p = 0; p < read_.size(); ++p) flow_velocity[p] += step * read_[p];
-    const double next = inner_scaled(residual_, diagonal_);
-    beta = next / weighted, weighted = next;
-    left = inner(residual_, residual_);
+    beta = next[1] / weighted, left = next[0], weighted = next[1];
     ++iterations;
   }
-  each([&](int c, std::size_t n) {
-    velocity.component(c)[n] += change_.component(c)[n] + residual_.component(c)[n] / void_fraction.component(c)[n];
-  });
+  for (int c = 0; c < 3; ++c)
+    for_each_face_within(g, c, coupled_,
+                         [u = velocity.component(c), x = change_.component(c), r = residual_.component(c),
+                          eps = void_fraction.component(c)](std::size_t n) { u[n] += x[n] + r[n] / eps[n]; });
   if (problem.implicit_viscosity > 0 || problem.spin) fill_velocity_ghosts(g, change_, 0);
   return iterations;
 }

@@ -43,7 +43,7 @@ class ImplicitDrag {
   const FaceFields& change() const { return change_; }
 
  private:
-  void apply(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction);
+  double apply(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction);
   double start(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction, const FaceFields& impulse,
                const FaceFields& velocity);
   double move_free_fluid(const StaggeredGrid&, const FaceFields& void_fraction, const FaceFields& impulse,

@@ -96,7 +96,7 @@ void deposit_void_fraction(const StaggeredGrid& grid, const Grains& grains, cons
   for (std::size_t p = 0; p < grains.size(); ++p)
     deposit(Weights(stencils[p]), stride, quad(sphere_volume(grains.diameter[p]) * per_cell),
             eps.woven.at(stencils[p]));
-  for_each_row(grid, eps.solid.reach, [&](std::size_t row, int length) {
+  for_each_row_beyond(grid, eps.solid.reach, home_of(grid, stencils.reach), [&](std::size_t row, int length) {
     std::fill_n(eps.centre.data() + row, length, 1.0);
     for (int c = 0; c < 3; ++c) std::fill_n(eps.face.component(c) + row, length, 1.0);
   });

@@ -107,9 +107,9 @@ void Woven::settle(Deposited& out, Field<Centre>* in_cells) {
   for (const int c : {2, 1, 0}) fold_along(c, reach_);
   const Reach home = home_of(grid_, reach_);
   if (in_cells)
-    for_each_row(grid_, out.reach,
-                 [&](std::size_t row, int length) { std::fill_n(in_cells->data() + row, length, 0.0); });
-  out.clear(grid_);
+    for_each_row_beyond(grid_, out.reach, home,
+                        [&](std::size_t row, int length) { std::fill_n(in_cells->data() + row, length, 0.0); });
+  out.clear_beyond(grid_, home);
   out.reach = home;
   for_each_row(grid_, home, [&](std::size_t row, int length) {
     const Quad* __restrict q = cells_.data() + row;

@@ -28,6 +28,23 @@ inline void for_each_row(const StaggeredGrid& g, const Reach& box, Body&& body) 
     for (int j = box.first[1]; j < box.last[1]; ++j) body(g.index(i, j, box.first[2]), box.last[2] - box.first[2]);
 }
 
+/// The same for the parts of rows of a box that lie outside another.
+template <class Body>
+inline void for_each_row_beyond(const StaggeredGrid& g, const Reach& box, const Reach& inner, Body&& body) {
+  const int below = box.first[2], above = box.last[2];
+  const int first = std::clamp(inner.first[2], below, std::max(below, above)),
+            last = std::clamp(inner.last[2], first, std::max(first, above));
+  for (int i = box.first[0]; i < box.last[0]; ++i)
+    for (int j = box.first[1]; j < box.last[1]; ++j) {
+      const bool crosses = i >= inner.first[0] && i < inner.last[0] && j >= inner.first[1] && j < inner.last[1];
+      const auto part = [&](int from, int to) {
+        if (from < to) body(g.index(i, j, from), to - from);
+      };
+      if (!crosses) part(below, above);
+      else part(below, first), part(last, above);
+    }
+}
+
 /// Calls visit(padded index) for every unknown face normal to c in a box.
 template <class Visit>
 inline void for_each_face_within(const StaggeredGrid& g, int c, Reach box, Visit&& visit) {
@@ -47,7 +64,7 @@ struct Deposited : FaceFields {
   /// value(direction, padded index) within a reach, zero beyond.
   template <class Value>
   void assign(const StaggeredGrid& g, const Reach& to, Value&& value) {
-    clear(g);
+    clear_beyond(g, to);
     reach = to;
     for_each_row(g, to, [&](std::size_t row, int length) {
       for (int c = 0; c < 3; ++c)
@@ -59,6 +76,12 @@ struct Deposited : FaceFields {
       for (int c = 0; c < 3; ++c) std::fill_n(component(c) + row, length, 0.0);
     });
     reach = {};
+  }
+  /// Clears what lies outside a box that is about to be written whole.
+  void clear_beyond(const StaggeredGrid& g, const Reach& box) {
+    for_each_row_beyond(g, reach, box, [&](std::size_t row, int length) {
+      for (int c = 0; c < 3; ++c) std::fill_n(component(c) + row, length, 0.0);
+    });
   }
 };
 
