@@ -35,7 +35,7 @@ class HertzMindlin {
 
   /// Stronger damping, being explicit, would shake a bed of many contacts at the DEM steps in use instead of calming it.
   static constexpr double lowest_restitution = 0.1;
-  static constexpr double strongest_shear_damping = 0.35;   // alpha of gamma_t = alpha sqrt(S_t m*) [-]
+  static constexpr double strongest_shear_damping = bedload::strongest_shear_damping;
 
   HertzMindlin without_friction() const;
 

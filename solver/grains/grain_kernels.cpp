@@ -94,7 +94,6 @@ BEDLOAD_INLINE Wide all(float x) { return Wide{} + x; }
 /// Damping of contacts in a liquid: chosen by the speed of approach when a contact begins, and kept.
 BEDLOAD_INLINE DampingOf<Wide> wet_damping(const PairPass& p, WetBlock& b, std::size_t at, const OverlapOf<Wide>& o) {
   const Wide closing = dot(o.velocity, o.normal);
-  Wide alpha = load<Wide>(b.damping + at);
   for (int part = 0; part < 2; ++part)
     for (int k = 0; k < lanes; ++k) {
       float& own = b.damping[at + static_cast<std::size_t>(part * lanes + k)];
@@ -103,8 +102,7 @@ BEDLOAD_INLINE DampingOf<Wide> wet_damping(const PairPass& p, WetBlock& b, std::
         own = static_cast<float>(
             p.wet.damping(b.viscous_speed[at + static_cast<std::size_t>(part * lanes + k)], closing.part[part][k]));
     }
-  alpha = load<Wide>(b.damping + at);
-  const Wide strongest = all(0.35f);
+  const Wide alpha = load<Wide>(b.damping + at), strongest = all(static_cast<float>(strongest_shear_damping));
   return {alpha, p.root_shear_ratio * (strongest / choose(alpha > strongest, alpha, strongest))};
 }
 

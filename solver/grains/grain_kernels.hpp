@@ -20,7 +20,7 @@ struct PairPass {
 
   ContactModuli<float> material;
   DampingOf<float> damping;   // of all, where there is no liquid in the contacts
-  WetTable wet;               // without a table: no liquid between the grains
+  WetTable wet;               // only with wet_blocks
   float root_shear_ratio;     // of S_t/S_n [-]
 
   double length[3];           // of the box [m]
@@ -28,15 +28,15 @@ struct PairPass {
   float dt;                   // [s]
 };
 
-/// Where the loads of a grain's contacts are [bytes from the first]: as the higher grain of its pairs, then as the lower, then at walls. Places
-/// that are not needed are those of a load that is always zero.
+/// Where the loads of a grain's contacts are [bytes from the first]: as the higher grain of its pairs, then as the lower,
+/// then at walls. Places that are not needed are those of a load that is always zero.
 struct ContactPlaces {
   static constexpr std::size_t direct = 4;
   std::uint32_t as_higher[direct], as_lower[direct];
 };
 static_assert(sizeof(ContactPlaces) == 32);
 
-/// One that did not fit.
+/// A place [bytes] beyond those that a grain has direct.
 struct FurtherPlace {
   std::uint32_t grain, place;
 };

@@ -13,6 +13,9 @@ struct ContactModuli {
   Number friction;           // Coulomb's coefficient [-]
 };
 
+/// Stronger damping, being explicit, would shake a bed of many contacts: alpha of gamma_t = alpha sqrt(S_t m*) [-].
+inline constexpr double strongest_shear_damping = 0.35;
+
 /// How strongly a contact is damped, gamma_n = normal sqrt(S_n m*), gamma_t = tangential gamma_n (G4).
 template <class Real>
 struct DampingOf {

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <limits>
 
+#include <fmt/format.h>
+
+#include "base/error.hpp"
 #include "solver/grains/film_law.hpp"
 
 namespace bedload {
@@ -148,6 +151,11 @@ void NeighbourList::place_loads(std::size_t grains) {
   loads.first_wall = pairs.blocks.size() * PairBlock::pairs;
   const auto at = [](std::size_t load) { return static_cast<std::uint32_t>(load * sizeof(ContactLoad)); };
   const std::size_t last = loads.first_wall + wall_contacts.size();
+  if (last > UINT32_MAX / sizeof(ContactLoad))
+    throw Error(ErrorKind::study_invalid,
+                fmt::format("grains: {} candidates for contact, at most {} fit into the list", last,
+                            UINT32_MAX / sizeof(ContactLoad)),
+                "fewer grains: about 45 million of a settled bed fit");
   const std::uint32_t none = at(last);
   loads.load.assign(last + 1, {});
   loads.places.resize(grains), first_pair_.resize(grains + 1);

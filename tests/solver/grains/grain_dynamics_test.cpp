@@ -116,6 +116,16 @@ TEST(GrainDynamics, ConserveAngularMomentumAmongUnequalSpinningGrains) {
   EXPECT_LE(norm(angular_momentum(grains) - before), 0x1p-24 * norm(before));
 }
 
+TEST(GrainDynamics, TellTheDeepestOverlapPerDiameterOfTheSmallerGrain) {
+  const BedScene scene = grain_scene(Side::wall, Side::wall);
+  Grains grains;   // the overlap of 30 um is deeper in itself, that of 15 um per diameter of its smaller grain
+  add_grain(grains, {10e-3, 10e-3, 10e-3}, {}, 2e-3), add_grain(grains, {10e-3 + 1.97e-3, 10e-3, 10e-3}, {}, 2e-3);
+  add_grain(grains, {20e-3, 20e-3, 20e-3}, {}, 2e-3), add_grain(grains, {20e-3 + 1.185e-3, 20e-3, 20e-3}, {}, 0.4e-3);
+  ContactHistory contacts;
+  GrainDynamics dynamics(scene);
+  EXPECT_NEAR(coast(dynamics, grains, contacts, scene.dem_step, 1).deepest_overlap, 15e-6 / 0.4e-3, 1e-6);
+}
+
 TEST(GrainDynamics, NeverMoveAFixedGrain) {
   BedScene scene = grain_scene(Side::periodic, Side::wall);
   scene.length = {8e-3, 8e-3, 8e-3};

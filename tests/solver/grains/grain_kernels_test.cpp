@@ -83,7 +83,8 @@ void meet_plainly(const PairPass& p, const PeriodicBox& box, std::size_t pair, C
     float& alpha = wet.damping[k];
     if (!(o.depth > 0)) alpha = -1;
     else if (alpha < 0) alpha = real(p.wet.damping(wet.viscous_speed[k], dot(o.velocity, o.normal)));
-    damping = {alpha, p.root_shear_ratio * (0.35f / std::max(alpha, 0.35f))};
+    const float strongest = real(strongest_shear_damping);
+    damping = {alpha, p.root_shear_ratio * (strongest / std::max(alpha, strongest))};
   }
   const auto r = hertz_mindlin(p.material, o, {b.spring_x[k], b.spring_y[k], b.spring_z[k]}, p.dt, damping);
   const Vector<float> torque = arm * cross(o.normal, r.force);
