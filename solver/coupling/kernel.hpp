@@ -35,6 +35,16 @@ inline Quad fused(Quad a, Quad b, Quad c) noexcept {
 #endif
 }
 
+/// Rounded down.
+inline Quad floor_of(Quad x) noexcept {
+#ifdef __AVX__
+  return __builtin_ia32_roundpd256(x, 0x09);   // towards minus infinity, without a flag
+#else
+  for (int t = 0; t < 4; ++t) x[t] = std::floor(x[t]);
+  return x;
+#endif
+}
+
 struct Strides {
   explicit Strides(const StaggeredGrid& g) : x(g.stride(0)), y(g.stride(1)) {}
   std::ptrdiff_t x, y;
@@ -55,6 +65,37 @@ struct Reach {
   std::array<int, 3> first{}, last{};
   bool empty() const { return first[0] >= last[0]; }
   bool operator==(const Reach&) const = default;
+};
+
+/// Finds cells, all directions at once; the fourth entry follows z.
+class CellFinder {
+ public:
+  explicit CellFinder(const StaggeredGrid& g)
+      : edges_(quad(g.h)),
+        highest_(quad(Vec3{g.cells[0] - 1.0, g.cells[1] - 1.0, g.cells[2] - 1.0})),
+        strides_(g),
+        lowest_corner_(static_cast<std::ptrdiff_t>(g.index(-1, -1, -1))) {}
+
+  Quad edges() const noexcept { return edges_; }
+  Quad highest() const noexcept { return highest_; }
+  /// In cell edges.
+  Quad scaled(Vec3 place) const noexcept { return quad(place) / edges_; }
+  /// The number of the cell in which a scaled place lies.
+  Quad cell_of(Quad scaled_place) const noexcept {
+    const Quad down = floor_of(scaled_place), none{};
+    const Quad inside = down > none ? down : none;
+    return inside < highest_ ? inside : highest_;
+  }
+  /// The padded index of cell i-1, j-1, k-1.
+  std::ptrdiff_t corner_of(Quad cell) const noexcept {
+    const auto whole = [cell](int c) { return static_cast<std::ptrdiff_t>(cell[c]); };
+    return lowest_corner_ + whole(0) * strides_.x + whole(1) * strides_.y + whole(2);
+  }
+
+ private:
+  Quad edges_, highest_;
+  Strides strides_;
+  std::ptrdiff_t lowest_corner_;
 };
 
 /// Where a grain stands: how far in its cell i, j, k, of edges, and the padded index of cell i-1, j-1, k-1.

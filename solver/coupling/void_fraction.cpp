@@ -8,29 +8,31 @@ namespace {
 /// The splines of all directions before a move and their change, on the four cells of each that a move of less than one cell
 /// can touch.
 struct MovedSplines {
-  Quad before[4] = {}, change[4] = {}, passed[4] = {};   // by cell; passed: what goes through the cell's lower face
-  int first[3];                                          // number of the first of the four cells
-  bool stays;                                            // in its cell, and touches three of them in each direction
+  Quad before[4], change[4], passed[4];   // by cell; passed: what goes through the cell's lower face
+  std::ptrdiff_t corner;                  // padded index of the first of the four cells
+  bool stays;                             // in its cell, and touches three of them in each direction
 
-  MovedSplines(const StaggeredGrid& grid, Vec3 start, Vec3 moved) noexcept {
-    Quad from, to;   // offset from the middle of the cell, before and after
-    int shift[3];
-    for (int c = 0; c < 3; ++c) {
-      const double s = start[c] / grid.h[c], end = s + moved[c] / grid.h[c];
-      const int cell = cell_of(s, grid.cells[c]);
-      shift[c] = std::clamp(static_cast<int>(std::floor(end)) - cell, -1, 1);
-      first[c] = cell - 1 - (shift[c] < 0);
-      from[c] = s - cell - 0.5, to[c] = end - cell - shift[c] - 0.5;
-    }
-    from[3] = from[2], to[3] = to[2];
-    const auto b = quadratic_spline(from), a = quadratic_spline(to);
+  MovedSplines(const CellFinder& cells, Strides stride, Vec3 start, Vec3 moved) noexcept {
+    const Quad s = cells.scaled(start), end = s + cells.scaled(moved), cell = cells.cell_of(s), none{}, one = none + 1;
+    Quad shift = floor_of(end) - cell;
+    shift = shift < -one ? -one : shift > one ? one : shift;
+    const auto b = quadratic_spline(s - cell - 0.5), a = quadratic_spline(end - cell - shift - 0.5);   // of the offsets
     for (int m = 0; m < 3; ++m) before[m] = b[m], change[m] = a[m] - b[m];
-    for (int c = 0; c < 3; ++c)
-      if (shift[c] != 0) apart(c, shift[c], b, a);
-    for (int m = 1; m < 4; ++m) passed[m] = passed[m - 1] - change[m - 1];
+    corner = cells.corner_of(cell);
+    stays = shift[0] == 0 && shift[1] == 0 && shift[2] == 0;
+    if (!stays) {
+      before[3] = change[3] = none;
+      const std::ptrdiff_t strides[] = {stride.x, stride.y, 1};
+      for (int c = 0; c < 3; ++c) {
+        if (shift[c] != 0) apart(c, static_cast<int>(shift[c]), b, a);
+        if (shift[c] < 0) corner -= strides[c];
+      }
+    }
+    passed[0] = none;
+    for (int m = 1; m < (stays ? 3 : 4); ++m) passed[m] = passed[m - 1] - change[m - 1];
+    if (stays) return;
     for (int c = 0; c < 3; ++c)
       if (shift[c] == 0) passed[3][c] = 0;
-    stays = shift[0] == 0 && shift[1] == 0 && shift[2] == 0;
   }
 
  private:
@@ -134,11 +136,12 @@ void deposit_swept_flux(const StaggeredGrid& grid, const Grains& grains, std::sp
   flux.woven.clear(reach);
   const double per_step = 1 / (grid.cell_volume() * dt);
   const Strides stride(grid);
+  const CellFinder cells(grid);
   for (std::size_t p = 0; p < grains.size(); ++p) {
     if (grains.fixed[p]) continue;
-    const MovedSplines s(grid, before[p], moved[p]);
-    const Quad amount = quad(sphere_volume(grains.diameter[p]) * per_step * grid.h);
-    Quad* const corner = flux.woven.data() + grid.index(s.first[0], s.first[1], s.first[2]);
+    const MovedSplines s(cells, stride, before[p], moved[p]);
+    const Quad amount = sphere_volume(grains.diameter[p]) * per_step * cells.edges();
+    Quad* const corner = flux.woven.data() + s.corner;
     s.stays ? sweep<3>(s, stride, amount, corner) : sweep<4>(s, stride, amount, corner);
   }
   settle_flux(grid, flux, smoothing);
