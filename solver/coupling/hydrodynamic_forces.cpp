@@ -7,11 +7,11 @@ namespace {
 
 constexpr double largest_removed = 0.7;   // of the slip: errors of the tables grow as 1/(1 - k)
 
-/// beta/rho_f = 3 pi nu d F eps of one grain; without the eps in Model B.
-template <class Law>
-double drag_coefficient(const Law& law, double diameter, double eps, double slip, double viscosity, bool model_b) {
-  const double multiplier = law.multiplier(eps, eps * slip * diameter / viscosity);
-  return 3 * std::numbers::pi * viscosity * diameter * multiplier * (model_b ? 1 : eps);
+/// beta/rho_f = 3 pi nu d F eps of one grain, or of four; without the eps in Model B.
+template <class Law, class Real>
+Real drag_coefficient(const Law& law, Real diameter, Real eps, Real slip, double viscosity, bool model_b) {
+  const Real multiplier = law.multiplier(eps, eps * slip * diameter / viscosity);
+  return 3 * std::numbers::pi * viscosity * diameter * multiplier * (model_b ? Real{} + 1 : eps);
 }
 
 /// Share k of the slip that the own drag takes away, beta r/nu, less what the drag solve takes from it by handing beta to each
@@ -54,21 +54,32 @@ Vec3 drag_without_own_flow(const Coefficient& coefficient, const SelfDisturbance
 template <class Law>
 void evaluate_drag(const Law& law, const StaggeredGrid& grid, const Grains& grains, double viscosity, bool model_b,
                    FlowAtGrains& flow) {
-  for (std::size_t p = 0; p < grains.size(); ++p) {
-    const double lone = loneness(flow.packing.others[p]);
-    const double surroundings = flow.void_fraction[p] + lone * flow.packing.own[p];
-    const double eps = std::clamp(surroundings, least_void, 1.0);
-    flow.void_clamps += eps != surroundings && surroundings < least_void;
-    const double d = grains.diameter[p];
-    const Vec3 slip = flow.velocity[p] - grains.velocity[p];
-    const auto coefficient = [&](double speed) { return drag_coefficient(law, d, eps, speed, viscosity, model_b); };
-    if (flow.self_disturbance && lone > 0) {
-      flow.drag[p] = drag_without_own_flow(coefficient, *flow.self_disturbance, grains.position[p], slip,
-                                           sphere_volume(d) / grid.cell_volume(), lone, viscosity, model_b,
-                                           flow.removed[p], flow.disturbance_clamps);
-    } else {
-      const double beta = coefficient(norm(slip));
-      flow.drag[p] = {beta, beta, beta};
+  const std::size_t n = grains.size();
+  for (std::size_t first = 0; first < n; first += 4) {
+    const std::size_t count = std::min<std::size_t>(n - first, 4);
+    Quad lone{}, eps = quad(1.0), diameter{}, speed{};
+    Vec3 slip[4];
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t p = first + k;
+      lone[k] = loneness(flow.packing.others[p]);
+      const double surroundings = flow.void_fraction[p] + lone[k] * flow.packing.own[p];
+      eps[k] = std::clamp(surroundings, least_void, 1.0);
+      flow.void_clamps += eps[k] != surroundings && surroundings < least_void;
+      diameter[k] = grains.diameter[p];
+      slip[k] = flow.velocity[p] - grains.velocity[p];
+      speed[k] = norm(slip[k]);
+    }
+    const Quad beta = drag_coefficient(law, diameter, eps, speed, viscosity, model_b);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t p = first + k;
+      flow.drag[p] = {beta[k], beta[k], beta[k]};
+      if (!flow.self_disturbance || !(lone[k] > 0)) continue;
+      const auto coefficient = [&](double at) {
+        return drag_coefficient(law, grains.diameter[p], eps[k], at, viscosity, model_b);
+      };
+      flow.drag[p] = drag_without_own_flow(coefficient, *flow.self_disturbance, grains.position[p], slip[k],
+                                           sphere_volume(grains.diameter[p]) / grid.cell_volume(), lone[k], viscosity,
+                                           model_b, flow.removed[p], flow.disturbance_clamps);
     }
   }
 }
