@@ -53,7 +53,7 @@ PairPass pair_pass(const HertzMindlin& law, const WetRestitution* wet, const Bod
   PairPass pass{};
   pass.spheres = bodies.spheres.data();
   pass.blocks = list.pairs.blocks.data();
-  pass.loads = list.loads.load.data();
+  pass.loads = list.loads.load.data(), pass.ring_blocks = list.loads.ring_blocks;
   pass.material = {real(law.material().normal_stiffness), real(law.material().shear_ratio), real(law.friction())};
   pass.damping = {real(law.damping().normal), real(law.damping().tangential)};
   pass.root_shear_ratio = real(law.root_shear_ratio());

@@ -17,6 +17,11 @@ namespace {
 // So few that the loads of their contacts are still in the first-level cache when they are added up.
 constexpr std::size_t grains_at_once = 64;
 
+/// Rare forces want the loads of all grains.
+bool any_rare(const BedScene& scene, ContactTerms terms) {
+  return terms.lubrication || scene.grains.rolling_friction > 0;
+}
+
 }   // namespace
 
 /// Scratch: nothing here outlives a call in meaning. The springs come from and return to the caller's ContactHistory;
@@ -26,7 +31,7 @@ struct GrainDynamics::Workspace {
       : kernels(of_processor),
         rough(scene.grains),
         smooth(rough.without_friction()),
-        list(scene, wet_law(scene, terms), terms.lubrication) {
+        list(scene, wet_law(scene, terms), terms.lubrication, any_rare(scene, terms) ? 0 : grains_at_once) {
     if (terms.lubrication) films.emplace(scene);
     if (scene.grains.rolling_friction > 0) rolling.emplace(scene.grains.rolling_friction);
   }
@@ -115,9 +120,9 @@ Vec3 GrainDynamics::Workspace::advance(const GrainDrive& drive, double dt, doubl
                           sums.data(),
                           dt};
   double fastest = 0;
-  for (std::size_t first = 0, met = 0; first < n; first += at_once) {
+  for (std::size_t first = 0, met = 0, far = 0; first < n; first += at_once) {
     const std::size_t last = std::min(n, first + at_once), to_meet = list.blocks_of_grains_below(last);
-    if (to_meet > met) kernels.meet(pairs, met, to_meet), met = to_meet;
+    if (to_meet > met) kernels.meet(pairs, met, to_meet), list.keep_far_loads(met = to_meet, far);
     kernels.add_up(sum, first, last, loads.data());
     if (rare) on_walls += add_rare_forces(dt, loads);
     fastest = std::max(fastest, kernels.move(motion, first, last, loads.data()));

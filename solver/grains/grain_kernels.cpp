@@ -132,10 +132,12 @@ BEDLOAD_INLINE void meet_some(const PairPass& p, PairBlock& b, WetBlock* wet, st
 
 void meet(const PairPass& pass, std::size_t first, std::size_t last) {
   const PairPass p = pass;   // nothing stored below can change it
-  for (std::size_t block = first; block < last; ++block)
+  for (std::size_t block = first, place = first % p.ring_blocks; block < last; ++block) {
     for (std::size_t at = 0; at < PairBlock::pairs; at += 2 * lanes)
       meet_some(p, p.blocks[block], p.wet_blocks ? p.wet_blocks + block : nullptr, at,
-                p.loads + block * PairBlock::pairs);
+                p.loads + place * PairBlock::pairs);
+    if (++place == p.ring_blocks) place = 0;
+  }
 }
 
 void add_up(SumPass& pass, std::size_t first, std::size_t last, Load* loads) {

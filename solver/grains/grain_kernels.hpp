@@ -14,9 +14,10 @@ namespace bedload {
 /// The candidate pairs and what their law reads.
 struct PairPass {
   const Sphere* spheres;
-  PairBlock* blocks;      // depth and springs are renewed
-  WetBlock* wet_blocks;   // dampings are renewed; null: no liquid between the grains
-  ContactLoad* loads;     // out: of all pairs, block by block
+  PairBlock* blocks;         // depth and springs are renewed
+  WetBlock* wet_blocks;      // dampings are renewed; null: no liquid between the grains
+  ContactLoad* loads;        // a ring that blocks enter turn by turn
+  std::size_t ring_blocks;   // of loads
 
   ContactModuli<float> material;
   DampingOf<float> damping;   // of all, where there is no liquid in the contacts

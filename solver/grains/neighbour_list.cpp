@@ -2,6 +2,7 @@
 #include "solver/grains/neighbour_list.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include <fmt/format.h>
@@ -35,8 +36,13 @@ bool before(std::uint32_t lower_a, std::uint32_t higher_a, std::uint32_t lower_b
 
 }   // namespace
 
-NeighbourList::NeighbourList(const BedScene& scene, const WetRestitution* wet, bool films)
-    : box_(scene), walls_(walls_of(scene)), wet_(wet), films_(films), rolls_(scene.grains.rolling_friction > 0) {}
+NeighbourList::NeighbourList(const BedScene& scene, const WetRestitution* wet, bool films, std::size_t summed_at_once)
+    : box_(scene),
+      walls_(walls_of(scene)),
+      wet_(wet),
+      films_(films),
+      rolls_(scene.grains.rolling_friction > 0),
+      summed_at_once_(summed_at_once) {}
 
 bool NeighbourList::same_grains(const Bodies& bodies) const noexcept {
   if (origin_.size() != bodies.size()) return false;
@@ -146,19 +152,54 @@ void NeighbourList::list_walls(const Bodies& bodies) {
   }
 }
 
+/// Finds the shortest ring in which nearly all loads of pairs are still there when they are asked for.
+void NeighbourList::place_pairs(std::size_t grains) {
+  constexpr std::size_t shortest = 64, most_far = 16;   // blocks; one pair in so many
+  constexpr std::size_t kinds = 32;
+  first_pair_.resize(grains + 1);
+  std::uint32_t pair = 0;
+  for (std::uint32_t i = 0; i < grains; ++i)
+    for (first_pair_[i] = pair; pair < pairs.size() && pairs.ids.lower[pair] == i;) ++pair;
+  first_pair_[grains] = pair;
+  loads.far.clear();
+  loads.ring_blocks = std::max<std::size_t>(pairs.blocks.size(), 1);
+  if (summed_at_once_ == 0) return;
+
+  const auto blocks_needed = [&](std::size_t k) {   // from the pair's to the last that is met before its load is read
+    const std::size_t next = (pairs.ids.higher[k] | (summed_at_once_ - 1)) + 1;
+    return blocks_of_grains_below(std::min(grains, next)) - k / PairBlock::pairs;
+  };
+  std::size_t count[kinds] = {}, longer = pairs.size();   // by the power of two that is enough
+  for (std::size_t k = 0; k < pairs.size(); ++k) ++count[std::bit_width(blocks_needed(k) - 1)];
+  std::size_t ring = 1;
+  for (std::size_t kind = 0; ring < shortest || longer * most_far > pairs.size(); ++kind)
+    ring = std::size_t{1} << kind, longer -= count[kind];
+  if (ring >= loads.ring_blocks) return;
+  loads.ring_blocks = ring;
+  auto place = static_cast<std::uint32_t>(ring * PairBlock::pairs);
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (blocks_needed(k) > ring) loads.far.push_back({static_cast<std::uint32_t>(k), place++});
+}
+
+void NeighbourList::keep_far_loads(std::size_t met, std::size_t& next) noexcept {
+  for (; next < loads.far.size() && loads.far[next].pair < met * PairBlock::pairs; ++next)
+    loads.load[loads.far[next].place] = loads.load[loads.in_ring(loads.far[next].pair)];
+}
+
 /// Gives every contact a place, and every grain the places of its contacts in order of its partners' ids, walls last.
 void NeighbourList::place_loads(std::size_t grains) {
-  loads.first_wall = pairs.blocks.size() * PairBlock::pairs;
+  place_pairs(grains);
+  loads.first_wall = loads.ring_blocks * PairBlock::pairs + loads.far.size();
   const auto at = [](std::size_t load) { return static_cast<std::uint32_t>(load * sizeof(ContactLoad)); };
   const std::size_t last = loads.first_wall + wall_contacts.size();
-  if (last > UINT32_MAX / sizeof(ContactLoad))
+  if (std::max(last, pairs.size()) > UINT32_MAX / sizeof(ContactLoad))
     throw Error(ErrorKind::study_invalid,
-                fmt::format("grains: {} candidates for contact, at most {} fit into the list", last,
+                fmt::format("grains: {} candidates for contact, at most {} fit into the list", pairs.size(),
                             UINT32_MAX / sizeof(ContactLoad)),
                 "fewer grains: about 45 million of a settled bed fit");
   const std::uint32_t none = at(last);
   loads.load.assign(last + 1, {});
-  loads.places.resize(grains), first_pair_.resize(grains + 1);
+  loads.places.resize(grains);
   loads.further_as_higher.clear(), loads.further_as_lower.clear();
   std::vector<std::uint8_t> higher(grains, 0), lower(grains, 0);   // direct places in use
   std::ranges::fill(loads.places, ContactPlaces{{none, none, none, none}, {none, none, none, none}});
@@ -166,19 +207,19 @@ void NeighbourList::place_loads(std::size_t grains) {
     if (used < ContactPlaces::direct) direct[used++] = at(load);
     else further.push_back({grain, at(load)});
   };
-  std::uint32_t pair = 0, touch = 0;
+  std::size_t touch = 0, far = 0;
   for (std::uint32_t i = 0; i < grains; ++i) {
     ContactPlaces& own = loads.places[i];
-    first_pair_[i] = pair;
-    for (; pair < pairs.size() && pairs.ids.lower[pair] == i; ++pair) {
+    for (std::size_t pair = first_pair_[i]; pair < first_pair_[i + 1]; ++pair) {
       const auto j = pairs.ids.higher[pair];
-      add(own.as_lower, lower[i], loads.further_as_lower, i, pair);
-      add(loads.places[j].as_higher, higher[j], loads.further_as_higher, j, pair);
+      const bool is_far = far < loads.far.size() && loads.far[far].pair == pair;
+      const std::size_t place = is_far ? loads.far[far++].place : loads.in_ring(pair);
+      add(own.as_lower, lower[i], loads.further_as_lower, i, place);
+      add(loads.places[j].as_higher, higher[j], loads.further_as_higher, j, place);
     }
     for (; touch < wall_contacts.size() && wall_contacts[touch].grain == i; ++touch)
       add(own.as_lower, lower[i], loads.further_as_lower, i, loads.first_wall + touch);
   }
-  first_pair_[grains] = pair;
   std::ranges::stable_sort(loads.further_as_higher, {}, &FurtherPlace::grain);
   loads.further_as_higher.push_back({UINT32_MAX, none}), loads.further_as_lower.push_back({UINT32_MAX, none});
 }

@@ -39,19 +39,34 @@ struct WallContact {
   Vec3 rolling;
 };
 
-/// Where the loads of all contacts are, and which of them each grain adds up: pairs in their order, then walls, then one
-/// that is always zero.
+/// The load of a pair that is asked for later than its place in the ring is needed again.
+struct FarLoad {
+  std::uint32_t pair;
+  std::uint32_t place;   // its own
+};
+
+/// Where the loads of all contacts are, and which of them each grain adds up: a ring of pairs in their order, which they
+/// enter turn by turn, so short that it stays in the second-level cache; then those of far pairs, walls, and one that is
+/// always zero.
 struct ContactLoads {
   std::vector<ContactLoad> load;
   std::vector<ContactPlaces> places;                               // one per grain
   std::vector<FurtherPlace> further_as_higher, further_as_lower;   // by grain, then in order of the pairs
+  std::size_t ring_blocks = 0;                                     // of the ring; a power of two, or of all pairs
+  std::vector<FarLoad> far;                                        // by pair
   std::size_t first_wall = 0;                                      // the place of the first wall contact
+
+  std::size_t in_ring(std::size_t pair) const {
+    const std::size_t turn = ring_blocks * PairBlock::pairs;
+    return pair < turn ? pair : pair & (turn - 1);
+  }
 };
 
 class NeighbourList {
  public:
-  /// `wet` (or null) must outlive the list.
-  NeighbourList(const BedScene&, const WetRestitution* wet, bool films);
+  /// `wet` (or null) must outlive the list. `summed_at_once`: the loads of so many grains, a power of two, are added up as
+  /// soon as their pairs are met; 0: those of all, when all are met.
+  NeighbourList(const BedScene&, const WetRestitution* wet, bool films, std::size_t summed_at_once = 0);
 
   /// True if the list is of these very grains, and every pair that may touch now is in it. `bodies` may have been
   /// wrapped since the list was made, and may be heavier or lighter now (added mass).
@@ -76,6 +91,8 @@ class NeighbourList {
   std::size_t blocks_of_grains_below(std::size_t grain) const {
     return (first_pair_[grain] + PairBlock::pairs - 1) / PairBlock::pairs;
   }
+  /// Brings the far loads among those of blocks up to `met` to their own places, from the `next` on, which it moves on.
+  void keep_far_loads(std::size_t met, std::size_t& next) noexcept;
   /// At least (r_i + r_j)/(2 min(r_i, r_j)) of any pair, with room for rounding to float [-].
   double most_unlike_radii() const { return most_unlike_radii_; }
   std::span<const double> inverse_skins() const { return inverse_skin_; }   // [1/m]; 0 for fixed grains
@@ -88,6 +105,7 @@ class NeighbourList {
   void list_pairs(const Bodies&);
   void list_walls(const Bodies&);
   void place_loads(std::size_t grains);
+  void place_pairs(std::size_t grains);
   bool same_grains(const Bodies&) const noexcept;
   void weigh(const Bodies&) noexcept;
   double furthest(const Bodies&) const noexcept;
@@ -96,6 +114,7 @@ class NeighbourList {
   std::vector<FlatWall> walls_;
   const WetRestitution* wet_;
   bool films_, rolls_;
+  std::size_t summed_at_once_;
 
   std::vector<std::uint32_t> first_pair_;   // of each grain as the lower one, and one beyond the last
   double most_unlike_radii_ = 1;

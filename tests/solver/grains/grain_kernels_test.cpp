@@ -155,6 +155,59 @@ TEST(GrainKernels, AddUpEveryContactInTheOrderOfPartners) {
   }
 }
 
+/// A channel of touching grains, numbered along it, so long that loads wait in a short ring; its two ends are neighbours.
+Bodies long_channel(BedScene& scene) {
+  scene = grain_scene(Side::periodic, Side::wall);
+  scene.sides = {Side::periodic, Side::periodic, Side::wall};
+  const double d = 1e-3, apart = 0.98 * d, mass = 2500 * sphere_volume(d);
+  const int along = 120, across = 6, up = 5;
+  scene.length = {along * apart, across * apart, up * apart};
+  RandomStream random(3, Stream::grain_place);
+  const auto any = [&](double scale) { return scale * (2 * random.uniform() - 1); };
+  Bodies bodies;
+  for (int i = 0; i < along; ++i)
+    for (int j = 0; j < across; ++j)
+      for (int k = 0; k < up; ++k) {
+        const Vec3 place{(i + 0.5 + any(0.01)) * apart, (j + 0.5 + any(0.01)) * apart, (k + 0.5) * apart};
+        const Vec3 v{any(0.1), any(0.1), any(0.1)}, w{any(200), any(200), any(200)};
+        bodies.spheres.push_back(sphere_of(place, 0.5 * d, v, w));
+        bodies.motions.push_back({v, 1 / mass, w, 1 / sphere_inertia(mass, d)});
+      }
+  return bodies;
+}
+
+TEST(NeighbourList, AShortRingOfLoadsGivesEveryGrainWhatAllLoadsTogetherGive) {
+  BedScene scene;
+  const Bodies bodies = long_channel(scene);
+  const HertzMindlin law(scene.grains);
+  const std::size_t n = bodies.size(), at_once = 64;
+  const GrainKernels& kernels = grain_kernels();
+  NeighbourList ring(scene, nullptr, false, at_once), whole(scene, nullptr, false);
+  ring.rebuild(bodies, scene.dem_step, {}), whole.rebuild(bodies, scene.dem_step, {});
+  ASSERT_LT(ring.loads.ring_blocks, whole.pairs.blocks.size() / 2) << "no ring was tested";
+  ASSERT_FALSE(ring.loads.far.empty()) << "no pair across the seam was tested";
+
+  std::vector<Load> by_turns(n), together(n);
+  for (int step = 0; step < 2; ++step) {   // the second finds the loads of the first
+    meet_walls(law, law, nullptr, bodies, scene.dem_step, 0, ring);
+    meet_walls(law, law, nullptr, bodies, scene.dem_step, 0, whole);
+    const PairPass pairs = pair_pass(law, nullptr, bodies, scene.dem_step, ring);
+    SumPass sums = sum_pass(bodies, ring), all_sums = sum_pass(bodies, whole);
+    for (std::size_t first = 0, met = 0, far = 0; first < n; first += at_once) {
+      const std::size_t last = std::min(n, first + at_once), to_meet = ring.blocks_of_grains_below(last);
+      if (to_meet > met) kernels.meet(pairs, met, to_meet), ring.keep_far_loads(met = to_meet, far);
+      kernels.add_up(sums, first, last, &by_turns[first]);
+    }
+    kernels.meet(pair_pass(law, nullptr, bodies, scene.dem_step, whole), 0, whole.pairs.blocks.size());
+    kernels.add_up(all_sums, 0, n, together.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_NE(together[i].force, Vec3{}) << i;
+      ASSERT_EQ(by_turns[i].force, together[i].force) << i;
+      ASSERT_EQ(by_turns[i].torque, together[i].torque) << i;
+    }
+  }
+}
+
 TEST(GrainKernels, MoveGrainsByNewtonsLaws) {
   for (const GrainKernels* kernels : kernels_here()) {
     Crowd crowd(false), before(false);
