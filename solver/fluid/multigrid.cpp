@@ -12,8 +12,6 @@ namespace {
 
 constexpr int directly_solved = 64;   // cells
 
-using Ratio = std::array<int, 3>;
-
 /// Along which directions to pair cells: those whose edge is within sqrt(2) of the shortest (couplings go with 1/h^2).
 Ratio coarsening(const std::array<int, 3>& cells, const Vec3& h) {
   double shortest = 0;
@@ -91,7 +89,7 @@ void Multigrid::set_couplings(const FaceFields& couplings, double scale) {
       for (int j = 0; j < g.cells[1]; ++j)
         m.levels[0].set_couplings(c, i, j, couplings.component(c) + g.index(i, j, 0), scale);
   m.levels[0].finish_couplings();
-  for (std::size_t l = 1; l < m.levels.size(); ++l) m.levels[l].aggregate_couplings(m.levels[l - 1], m.ratios[l - 1]);
+  for (std::size_t l = 1; l < m.levels.size(); ++l) m.levels[l].coarsen_couplings(m.levels[l - 1], m.ratios[l - 1]);
   m.coarsest.factor(m.levels.back().layout().cell_count(), m.levels.back().matrix());
 }
 

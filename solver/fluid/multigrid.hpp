@@ -8,9 +8,9 @@
 
 namespace bedload {
 
-/// Red-black Gauss-Seidel, piecewise-constant transfer, coarse coupling = sum of the fine couplings across the
-/// interface, halved along coarsened directions; only the strongly coupled directions are coarsened until cells are
-/// nearly cubic. Symmetric positive (semi-)definite: after the coarse correction the colours run in reverse order, and
+/// Red-black Gauss-Seidel; only the strongly coupled directions are coarsened until cells are nearly cubic. Piecewise-constant
+/// transfer, coarse coupling = sum of the fine couplings across the interface, halved along coarsened directions; along z
+/// alone every second cell is interpolated by its couplings (multigrid_along_z.cpp). Symmetric positive (semi-)definite: after the coarse correction the colours run in reverse order, and
 /// neighbours of one colour across an odd periodic seam see each other's old values.
 class Multigrid {
  public:

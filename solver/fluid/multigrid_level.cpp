@@ -43,9 +43,16 @@ void MultigridLevel::finish_couplings() noexcept {
   }
 }
 
-void MultigridLevel::aggregate_couplings(const MultigridLevel& fine, std::array<int, 3> ratio) noexcept {
+void MultigridLevel::coarsen_couplings(MultigridLevel& fine, Ratio ratio) noexcept {
+  for (auto& w : coupling_) std::fill(w.begin(), w.end(), 0.0f);
+  if (ratio == along_z) fine.find_shares(), thin_couplings(fine);
+  else aggregate_couplings(fine, ratio);
+  finish_couplings();
+}
+
+/// Sums of the couplings of `fine` across the interfaces between aggregates of ratio[c] cells.
+void MultigridLevel::aggregate_couplings(const MultigridLevel& fine, Ratio ratio) noexcept {
   for (int c = 0; c < 3; ++c) {
-    std::fill(coupling_[c].begin(), coupling_[c].end(), 0.0f);
     if (at_.cells[c] == 1) continue;
     const float weight = ratio[c] == 2 ? 0.5f : 1.0f;
     std::array<int, 2> stride{1, 1};
@@ -61,7 +68,6 @@ void MultigridLevel::aggregate_couplings(const MultigridLevel& fine, std::array<
                       &coupling_[c][at_.at(i / ratio[0], j / ratio[1], 1)]);
       }
   }
-  finish_couplings();
 }
 
 std::vector<double> MultigridLevel::matrix() const {

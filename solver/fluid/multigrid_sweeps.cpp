@@ -76,17 +76,18 @@ void MultigridLevel::wrap(int plane) noexcept {
   at_.wrap_rows(x_.data(), plane);
 }
 
-void MultigridLevel::smooth_and_restrict(MultigridLevel& coarse, std::array<int, 3> ratio) noexcept {
+void MultigridLevel::smooth_and_restrict(MultigridLevel& coarse, Ratio ratio) noexcept {
   if (at_.seam) std::fill(x_.begin(), x_.end(), 0.0f);   // across a seam black cells read black ones
   wavefront(
       at_.cells[0], [&] { at_.wrap_planes(x_.data()); }, [&](int i) { begin_with_red(i); },
       [&](int i) { relax(i, black); }, [&](int i) { relax(i, red); }, [&](int i) { relax(i, black); },
-      [&](int i) { restrict_residual(i, coarse, ratio); });
+      [&](int i) { ratio == along_z ? restrict_along_z(i, coarse) : restrict_residual(i, coarse, ratio); });
 }
 
-double MultigridLevel::correct_and_smooth(const MultigridLevel& coarse, std::array<int, 3> ratio) noexcept {
+double MultigridLevel::correct_and_smooth(const MultigridLevel& coarse, Ratio ratio) noexcept {
   wavefront(
-      at_.cells[0], [&] { at_.wrap_planes(x_.data()); }, [&](int i) { add_correction(i, coarse, ratio); },
+      at_.cells[0], [&] { at_.wrap_planes(x_.data()); },
+      [&](int i) { ratio == along_z ? interpolate_along_z(i, coarse) : add_correction(i, coarse, ratio); },
       [&](int i) { relax(i, black); }, [&](int i) { relax(i, red); }, [&](int i) { relax(i, black); },
       [&](int i) {
         relax(i, red);
@@ -109,9 +110,18 @@ double MultigridLevel::apply(int plane, const float* field, float* image) const 
   return sum.value();
 }
 
+/// The residual of one colour, rows as even cells and odd cells.
+void MultigridLevel::find_residual(int plane, Colour colour) noexcept {
+  for_each_row(plane, colour, x_.data(), [&](const Stencil& s, std::size_t start, int first, int count, int j) {
+    const float* b = &right_[start] + first;
+    float* out = &aggregates_[j * at_.row_stride() + ((plane + j + colour) & 1) * at_.half];
+    for_each_vector(count, [=](auto v, int m) { store(out + m, s.residual(load<decltype(v)>(b + m), first + m)); });
+  });
+}
+
 /// Adds the residual of one colour to the rows of aggregates. Beyond the cells stands a ghost with a coupling, whose
 /// residual is none.
-void MultigridLevel::add_residual(int plane, Colour colour, std::array<int, 3> ratio) noexcept {
+void MultigridLevel::add_residual(int plane, Colour colour, Ratio ratio) noexcept {
   for_each_row(plane, colour, x_.data(), [&](const Stencil& s, std::size_t start, int first, int count, int j) {
     const float* b = &right_[start] + first;
     float* sums = &aggregates_[j / ratio[1] * at_.row_stride()];
@@ -130,7 +140,7 @@ void MultigridLevel::add_residual(int plane, Colour colour, std::array<int, 3> r
 
 /// After a black half-sweep only red cells have a residual, unless cells of one colour meet at a seam. The first plane of
 /// an aggregate comes first.
-void MultigridLevel::restrict_residual(int plane, MultigridLevel& coarse, std::array<int, 3> ratio) noexcept {
+void MultigridLevel::restrict_residual(int plane, MultigridLevel& coarse, Ratio ratio) noexcept {
   const int I = plane / ratio[0], nz = coarse.at_.cells[2];
   std::fill_n(aggregates_.begin(), coarse.at_.cells[1] * at_.row_stride(), 0.0f);
   add_residual(plane, red, ratio);
@@ -144,7 +154,7 @@ void MultigridLevel::restrict_residual(int plane, MultigridLevel& coarse, std::a
 }
 
 /// Without a seam the black half-sweep that follows overwrites black cells before anyone reads them.
-void MultigridLevel::add_correction(int plane, const MultigridLevel& coarse, std::array<int, 3> ratio) noexcept {
+void MultigridLevel::add_correction(int plane, const MultigridLevel& coarse, Ratio ratio) noexcept {
   const int I = plane / ratio[0];
   for (int J = 0; J < coarse.at_.cells[1]; ++J)
     join_row(&coarse.x_[coarse.at_.at(I, J, 0)], &coarse.x_[coarse.at_.at(I, J, 1)], coarse.at_.cells[2],

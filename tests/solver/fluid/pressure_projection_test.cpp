@@ -178,6 +178,22 @@ INSTANTIATE_TEST_SUITE_P(Table, PressureSolverOverABed,
                                                           Bed::random_cells),
                                           testing::Values(2.5, 1e2, 1e4), testing::Values(1.0, 4.0),
                                           testing::Values(std::array{32, 32, 40}, std::array{21, 12, 27})));
+// Where poorly coupled columns run long, and where the coarse level must not be softer than the fine one.
+INSTANTIATE_TEST_SUITE_P(Large, PressureSolverOverABed,
+                         testing::Values(std::tuple{Bed::random_cells, 1e4, 4.0, std::array{100, 100, 60}},
+                                         std::tuple{Bed::rough_surface, 1e4, 4.0, std::array{64, 64, 64}}));
+
+TEST(PressureSolver, SolvesColumnsDirectly) {
+  for (const int nz : {200, 201})
+    for (const Side side : {wall, periodic}) {
+      const StaggeredGrid g{{1, 1, nz}, {1, 1, 1}, {periodic, periodic, side}};
+      Field<Centre> p(g);
+      const PressureSolve solve =
+          PressureSolver(g).solve(bed_coefficient(g, Bed::random_cells, 1e4), random_centres(g, 2, -1, 1), p, 1e-8, 0);
+      EXPECT_TRUE(solve.converged);
+      EXPECT_LE(solve.iterations, 5);   // single precision: 1e-4 at a time
+    }
+}
 
 }   // namespace
 }   // namespace bedload
