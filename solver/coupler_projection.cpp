@@ -54,7 +54,6 @@ void Coupler::Parts::project(State& state, double dt) {
   fill_face_ghosts(grid, flux);
   fill_face_ghosts(grid, response.coefficient);
   divergence(grid, flux, rhs);
-  std::fill(correction.values.begin(), correction.values.end(), 0.0);
   const PressureSolve solve =
       pressure.solve(response.coefficient, rhs, correction, any_mobile(state.grains) ? pressure_tolerance : 0,
                      least_divergence / (dt * dt));
@@ -94,11 +93,12 @@ void Coupler::Parts::kick_mixture(State& state, double dt, double uniform) {
   Vec3 on_fixed;
   Courant courant;
   Finite finite;
+  std::vector<double> one_row(grid.cells[2]);   // of the kick; the whole of it only for grains that read it
   for (int c = 0; c < 3; ++c) {
     const std::ptrdiff_t s = grid.stride(c);
     const double per_h = 1 / grid.h[c], added = c == 2 ? uniform : 0;
     for_each_face_row(grid, c, [&](std::size_t row, int length) {
-      double* __restrict k = kick.component(c) + row;
+      double* __restrict k = mobile ? kick.component(c) + row : one_row.data();
       double* __restrict u = state.fluid.velocity.component(c) + row;
       const double *dq = &correction[row], *cf = response.fluid.component(c) + row;
       for (int m = 0; m < length; ++m) k[m] = (dq[m] - dq[m - s]) * per_h + added;

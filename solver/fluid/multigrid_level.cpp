@@ -24,7 +24,8 @@ void MultigridLevel::set_couplings(int c, int i, int j, const double* values, do
 void MultigridLevel::finish_couplings() noexcept {
   const auto [nx, ny, nz] = at_.cells;
   auto& [wx, wy, wz] = coupling_;
-  std::fill(x_.begin(), x_.end(), 0.0f);   // nothing of an earlier solve, not even a NaN on padding, reaches this one
+  for (auto* field : {&x_, &right_})   // nothing of an earlier solve, not even a NaN on padding, reaches this one
+    std::fill(field->begin(), field->end(), 0.0f);
   if (at_.wraps[0]) std::copy_n(&wx[at_.row(0, -1)], at_.plane_stride(), &wx[at_.row(nx, -1)]);
   const std::size_t dx = at_.plane_stride(), dy = at_.row_stride();
   for (int i = 0; i < nx; ++i) {

@@ -87,24 +87,41 @@ struct PressureSolver::Levels {
     const double largest = largest_coupling(grid, couplings);
     matrix_scale = largest > 0 ? 1 / largest : 1;
     multigrid.set_couplings(couplings, matrix_scale);
+    std::fill(direction.begin(), direction.end(), 0.0f);   // an earlier solve may have left what is not finite
     hierarchy_stands = true;
   }
 
-  /// r = -(rhs - mean) - A p in double precision, in units of 1/scale; returns |r|.
+  /// r = -(rhs - mean), the residual of p = 0, in units of 1/scale. The next step along d finds p.
+  void begin(const Field<Centre>& rhs, double mean_rhs, double scale) noexcept {
+    float* r = multigrid.right_hand_side();
+    for (int i = 0; i < grid.cells[0]; ++i)
+      for (int j = 0; j < grid.cells[1]; ++j) {
+        const double* __restrict from = rhs.data() + grid.index(i, j, 0);
+        for (int k = 0; k < grid.cells[2]; ++k) row[k] = mean_rhs - from[k];
+        split_row(row.data(), scale, grid.cells[2], r + at.at(i, j, 0), r + at.at(i, j, 1));
+      }
+    from_zero = true;
+  }
+
+  /// r = -(rhs - mean) - A p in double precision, in units of 1/scale; returns |r|, and the mean of p in mean_p.
   double find_residual(const Field<Centre>& rhs, double mean_rhs, Field<Centre>& p, double scale) {
     fill_centre_ghosts(grid, p);
     float* r = multigrid.right_hand_side();
+    double sum_p = 0;
     for (int i = 0; i < grid.cells[0]; ++i) {
-      LaneSum sum;
+      LaneSum sum, plane_of_p;
       for (int j = 0; j < grid.cells[1]; ++j) {
         const std::size_t first = grid.index(i, j, 0);
         minus_divergence(grid, couplings, p.data(), first, row.data());
         for (int k = 0; k < grid.cells[2]; ++k) row[k] = (mean_rhs - rhs[first + k]) - row[k];
         sum.add_row(grid.cells[2], [&](int k) { return row[k] * row[k]; });
+        plane_of_p.add_row(grid.cells[2], [&](int k) { return p[first + k]; });
         split_row(row.data(), scale, grid.cells[2], r + at.at(i, j, 0), r + at.at(i, j, 1));
       }
       sums[i] = sum.value();
+      sum_p += plane_of_p.value();
     }
+    mean_p = sum_p / grid.cell_count();
     return std::sqrt(sums.value());
   }
 
@@ -113,7 +130,10 @@ struct PressureSolver::Levels {
     join_row(&direction[at.at(i, j, 0)], &direction[at.at(i, j, 1)], grid.cells[2], float_row.data());
     double* __restrict x = &p[grid.index(i, j, 0)];
     const float* __restrict d = float_row.data();
-    for (int k = 0; k < grid.cells[2]; ++k) x[k] += step * d[k];
+    if (from_zero)
+      for (int k = 0; k < grid.cells[2]; ++k) x[k] = 0 + step * d[k];
+    else
+      for (int k = 0; k < grid.cells[2]; ++k) x[k] += step * d[k];
   }
 
   /// p += step d for the old d, then d = z + beta d and A d; returns d.Ad.
@@ -130,6 +150,7 @@ struct PressureSolver::Levels {
           at.wrap_rows(direction.data(), i);
         },
         [&](int i) { sums[i] = multigrid.apply(i, direction.data(), image.data()); });
+    from_zero &= step == 0;
     return sums.value();
   }
 
@@ -148,9 +169,8 @@ struct PressureSolver::Levels {
   }
 
   void finish(Field<Centre>& p) {
-    const double shift = mean(p);
     for_each_cell_row(grid, [&](std::size_t first, int length) {
-      for (std::size_t n = first; n < first + length; ++n) p[n] -= shift;
+      for (std::size_t n = first; n < first + length; ++n) p[n] -= mean_p;
     });
     fill_centre_ghosts(grid, p);
   }
@@ -161,6 +181,8 @@ struct PressureSolver::Levels {
   FaceFields couplings;
   double matrix_scale = 1;
   bool hierarchy_stands = false;
+  bool from_zero = true;   // p is zero as yet, whatever stands there
+  double mean_p = 0;
   std::vector<float> direction, image;   // d and A d, in the layout of the multigrid
   PlaneSums sums;
   std::vector<double> row;
@@ -182,9 +204,9 @@ PressureSolve PressureSolver::solve(const FaceFields& coefficient, const Field<C
 
   PressureSolve report;
   const double scale = rhs_norm > 0 ? 1 / rhs_norm : 1;
-  double norm = s.find_residual(rhs, mean_rhs, p, scale);
+  double norm = rhs_norm;
   if (norm > target) {
-    std::fill(s.direction.begin(), s.direction.end(), 0.0f);
+    s.begin(rhs, mean_rhs, scale);
     double rz_before = std::numeric_limits<double>::infinity();
     while (norm > target && report.iterations < most_iterations) {
       const double goal = std::max(target, trusted_reduction * norm);
@@ -199,11 +221,14 @@ PressureSolve PressureSolver::solve(const FaceFields& coefficient, const Field<C
       } while (norm > goal && report.iterations < most_iterations);
       for (int i = 0; i < g.cells[0]; ++i)
         for (int j = 0; j < g.cells[1]; ++j) s.add_direction(i, j, step, p);
+      s.from_zero = false;
       norm = s.find_residual(rhs, mean_rhs, p, scale);
     }
+    s.finish(p);
+  } else {
+    std::fill(p.values.begin(), p.values.end(), 0.0);
   }
   s.hierarchy_stands &= std::isfinite(norm);   // what is not finite stays behind on the levels until they are set anew
-  s.finish(p);
   report.residual = rhs_norm > 0 ? norm / rhs_norm : norm;
   report.converged = norm <= target;
   return report;

@@ -20,7 +20,7 @@ class PressureSolver {
   ~PressureSolver();
 
   /// `coefficient` c on faces (> 0 on unknown faces; walls carry no flux whatever stands there); `rhs` on centres, its
-  /// mean is removed. `p` on entry is the first guess, on return the solution with zero mean and filled ghosts. Stops
+  /// mean is removed. `p`, whatever it holds, becomes the solution with zero mean and filled ghosts, found from zero. Stops
   /// when the residual 2-norm is below max(relative |rhs|, absolute * sqrt(cells)).
   PressureSolve solve(const FaceFields& coefficient, const Field<Centre>& rhs, Field<Centre>& p, double relative,
                       double absolute);
