@@ -52,7 +52,6 @@ void Coupler::Parts::project(State& state, double dt) {
                          [=, j = solid_flux.component(c)](std::size_t n) { whole[n] += j[n] * per_dt; });
   }
   fill_face_ghosts(grid, flux);
-  fill_face_ghosts(grid, response.coefficient);
   divergence(grid, flux, rhs);
   const PressureSolve solve =
       pressure.solve(response.coefficient, rhs, correction, any_mobile(state.grains) ? pressure_tolerance : 0,

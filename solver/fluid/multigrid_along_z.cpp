@@ -14,6 +14,26 @@ void add_row(const SplitGrid& at, int i, int j, float* __restrict row, std::vect
   add_split_row(row, 1.0f, at.cells[2], &to[at.at(i, j, 0)], &to[at.at(i, j, 1)]);
 }
 
+/// Interpolated cells of a column: their lower shares, and their couplings with the cells above.
+struct Column {
+  const float *share, *high;
+};
+
+/// What lateral couplings w of two columns' interpolated cells become: couplings of the kept cells below and above, and
+/// what comes on top along z in the one column and the other. In the order of the interpolated cells.
+void share_out(const float* w, Column one, Column other, int cells, float* __restrict below, float* __restrict above,
+               float* __restrict on_one, float* __restrict on_other) noexcept {
+  for (int m = 0; m < cells; ++m) {
+    const float a = one.share[m], b = other.share[m];
+    const float k = a * one.high[m], l = b * other.high[m];
+    const float s = k + l > 0 ? (a * l + b * k) / (k + l) : a;
+    below[m] = w[m] * s;
+    above[m] = w[m] * (1 - s);
+    on_one[m] += w[m] * (s - a) * (s - a);
+    on_other[m] = w[m] * (s - b) * (s - b);
+  }
+}
+
 }   // namespace
 
 /// An odd cell lies between its neighbours as a potential along the column does: nearer to the one it couples with more.
@@ -35,29 +55,21 @@ void MultigridLevel::thin_couplings(const MultigridLevel& fine) noexcept {
   const SplitGrid& f = fine.at_;
   const auto [nx, ny, nz] = at_.cells;
   const int odd = f.cells[2] / 2;
-  std::vector<float> lateral(nz + 1), column(nz + 1), neighbour(nz + 1);
+  std::vector<float> lateral(nz + 1), column(nz + 1), below(nz + 1), above(nz + 1), neighbour(nz + 1);
   for (int i = 0; i < nx; ++i)
     for (int j = 0; j < ny; ++j) {
-      const float *a = &fine.lower_share_[f.at(i, j, 1)], *high = &fine.coupling_[2][f.at(i, j, 2)];
-      std::fill(column.begin(), column.end(), 0.0f);
-      if (f.cells[2] % 2 == 1) column[0] = fine.coupling_[2][f.at(i, j, 0)];   // at an odd seam even cells meet
-      for (int m = 0; m < odd; ++m) column[m + 1] = a[m] * high[m];
+      const Column own{&fine.lower_share_[f.at(i, j, 1)], &fine.coupling_[2][f.at(i, j, 2)]};
+      column[0] = f.cells[2] % 2 == 1 ? fine.coupling_[2][f.at(i, j, 0)] : 0;   // at an odd seam even cells meet
+      for (int m = 0; m < odd; ++m) column[m + 1] = own.share[m] * own.high[m];
       for (int c : {0, 1}) {
         if (at_.cells[c] == 1) continue;
         const int I = c == 0 ? (i + nx - 1) % nx : i, J = c == 1 ? (j + ny - 1) % ny : j;
-        const float *b = &fine.lower_share_[f.at(I, J, 1)], *high_b = &fine.coupling_[2][f.at(I, J, 2)];
-        const float *w_even = &fine.coupling_[c][f.at(i, j, 0)], *w = &fine.coupling_[c][f.at(i, j, 1)];
-        std::copy_n(w_even, nz, lateral.begin());
-        lateral[nz] = 0;
-        std::fill(neighbour.begin(), neighbour.end(), 0.0f);
-        for (int m = 0; m < odd; ++m) {
-          const float stiff = a[m] * high[m], stiff_b = b[m] * high_b[m], both = stiff + stiff_b;
-          const float s = both > 0 ? (a[m] * stiff_b + b[m] * stiff) / both : a[m];
-          lateral[m] += w[m] * s;
-          lateral[m + 1] += w[m] * (1 - s);
-          column[m + 1] += w[m] * (s - a[m]) * (s - a[m]);
-          neighbour[m + 1] += w[m] * (s - b[m]) * (s - b[m]);
-        }
+        const float *even = &fine.coupling_[c][f.at(i, j, 0)], *w = &fine.coupling_[c][f.at(i, j, 1)];
+        share_out(w, own, {&fine.lower_share_[f.at(I, J, 1)], &fine.coupling_[2][f.at(I, J, 2)]}, odd, below.data(),
+                  above.data() + 1, column.data() + 1, neighbour.data() + 1);
+        for (int m = 0; m < nz; ++m) lateral[m] = (even[m] + above[m]) + below[m];
+        lateral[nz] = above[nz];
+        neighbour[0] = 0;
         add_row(at_, i, j, lateral.data(), coupling_[c]);
         if (nz > 1) add_row(at_, I, J, neighbour.data(), coupling_[2]);
       }
