@@ -51,7 +51,7 @@ void Coupler::Parts::project(State& state, double dt) {
     for_each_face_within(grid, c, solid_flux.reach,
                          [=, j = solid_flux.component(c)](std::size_t n) { whole[n] += j[n] * per_dt; });
   }
-  fill_face_ghosts(grid, flux);
+  close_faces(grid, flux);
   divergence(grid, flux, rhs);
   const PressureSolve solve =
       pressure.solve(response.coefficient, rhs, correction, any_mobile(state.grains) ? pressure_tolerance : 0,

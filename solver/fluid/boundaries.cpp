@@ -1,6 +1,7 @@
 // Each ghost layer is an affine image of a layer inside: copied, reflected, or reflected about a moving wall.
 #include "solver/fluid/boundaries.hpp"
 
+#include <algorithm>
 #include <initializer_list>
 
 namespace bedload {
@@ -83,6 +84,19 @@ void fill_face_ghosts(const StaggeredGrid& g, FaceFields& field) {
   for (int component = 0; component < 3; ++component)
     for (int c = 0; c < 3; ++c)
       if (g.periodic(c)) fill_periodic(g, field.component(component), c);
+}
+
+void close_faces(const StaggeredGrid& g, FaceFields& field) noexcept {
+  for (int c = 0; c < 3; ++c) {
+    if (!g.periodic(c)) continue;
+    double* const f = field.component(c);
+    const std::ptrdiff_t to_last = g.cells[c] * g.stride(c);
+    for (int i = 0; i < (c == 0 ? 1 : g.cells[0]); ++i)
+      for (int j = 0; j < (c == 1 ? 1 : g.cells[1]); ++j) {
+        double* const row = f + g.index(i, j, 0);
+        std::copy_n(row, c == 2 ? 1 : g.cells[2], row + to_last);
+      }
+  }
 }
 
 }   // namespace bedload

@@ -16,4 +16,7 @@ void fill_centre_ghosts(const StaggeredGrid&, Field<Centre>&);
 /// read.
 void fill_face_ghosts(const StaggeredGrid&, FaceFields&);
 
+/// Only what a divergence reads: in periodic directions face n is face 0.
+void close_faces(const StaggeredGrid&, FaceFields&) noexcept;
+
 }   // namespace bedload

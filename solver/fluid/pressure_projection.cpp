@@ -36,7 +36,7 @@ bool set_couplings(const StaggeredGrid& g, const FaceFields& coefficient, FaceFi
       changed = true;
     });
   }
-  if (changed) fill_face_ghosts(g, w);
+  if (changed) close_faces(g, w);
   return changed;
 }
 

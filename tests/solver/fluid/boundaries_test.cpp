@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fields.hpp"
+#include "solver/fluid/operators.hpp"
 
 namespace bedload {
 namespace {
@@ -83,6 +84,21 @@ TEST(Boundaries, GivePressureNoGradientAtAWall) {
   EXPECT_EQ(q[g.index(-1, 1, 2)], q[g.index(0, 1, 2)]);
   EXPECT_EQ(q[g.index(5, 1, 2)], q[g.index(2, 1, 2)]);
   EXPECT_EQ(q[g.index(2, 1, 5)], q[g.index(2, 1, 4)]);
+}
+
+TEST(Boundaries, CloseFluxesForTheirDivergence) {
+  for (const std::array sides : {std::array{periodic, periodic, periodic}, std::array{wall, periodic, wall},
+                                 std::array{periodic, wall, periodic}}) {
+    const StaggeredGrid g{{4, 3, 5}, {1, 2, 0.5}, sides};
+    const FaceFields flux = random_faces(g, 5, -1, 1);
+    FaceFields filled = flux, closed = flux;
+    fill_face_ghosts(g, filled);
+    close_faces(g, closed);
+    Field<Centre> expected(g), div(g);
+    divergence(g, filled, expected);
+    divergence(g, closed, div);
+    EXPECT_EQ(div, expected);
+  }
 }
 
 }   // namespace
