@@ -1,6 +1,7 @@
 // Making a bed: where the grains start, how they settle, when they are at rest.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "solver/grains/bed_scene.hpp"
@@ -19,7 +20,8 @@ bool needs_settling(const BedScene&);
 
 /// One-way settling: submerged weight, linear (Stokes) drag to still fluid, contacts; until the mean kinetic energy per
 /// grain is below 1e-6 W' d and no grain is falling freely. Restitution and drag are at most what docs/physics_grains.md,
-/// (G13), says. Deterministic in (Grains, ContactHistory).
+/// (G13), says; the step is its own. The last grains that move are moved alone (stragglers.hpp). Deterministic in (Grains,
+/// ContactHistory).
 class BedPacking {
  public:
   explicit BedPacking(const BedScene&);
@@ -29,8 +31,9 @@ class BedPacking {
     double energy;            // mean kinetic energy per grain / (W' d)
     double deepest_overlap;   // per diameter of the smaller grain [-]
     bool settled;
+    std::uint64_t grain_steps;   // sub-steps of single grains that it took [-]
   };
-  /// One interval of some tens of sub-steps; wraps positions into the box.
+  /// One interval of 50 to 200 sub-steps; wraps positions into the box.
   Progress advance(Grains&, ContactHistory&);
   /// A hundred times the fall from the top of the box to the bottom [s]: what has not come to rest by then will not.
   double patience() const;

@@ -171,18 +171,43 @@ TEST(BedPacking, SinksByStokesButNoSlowerThanSpeedHasASay) {
   }
 }
 
-TEST(BedPacking, StaysSettledOnceItHasSettled) {
-  const BedScene scene = bed_scene(200);
-  Bed bed = settle(scene);
-  ASSERT_TRUE(bed.settled);
-  const Grains before = bed.grains;
+// What is not in grains and contacts is scratch: a run that is resumed at any interval makes the same bed.
+TEST(BedPacking, MakesTheSameBitsWhenEveryIntervalIsTakenByAnotherBedPacking) {
+  const BedScene scene = bed_scene(300);
+  Grains whole = place_grains(scene), parts = whole;
+  ContactHistory contacts_of_whole, contacts_of_parts;
   BedPacking packing(scene);
-  for (int n = 0; n < 100; ++n) packing.advance(bed.grains, bed.contacts);
-  const PeriodicBox box(scene);
-  double moved = 0;
-  for (std::size_t i = 0; i < before.size(); ++i)
-    moved = std::max(moved, norm(box.shortest(bed.grains.position[i] - before.position[i])));
-  EXPECT_LT(moved, 0.05 * scene.grains.diameter);
+  double time = 0;
+  bool settled = false, alone = false;
+  while (!settled) {
+    const auto progress = packing.advance(whole, contacts_of_whole);
+    BedPacking(scene).advance(parts, contacts_of_parts);
+    ASSERT_TRUE(whole == parts && contacts_of_whole == contacts_of_parts) << time;
+    alone |= progress.grain_steps < 300 * 50 / 2;
+    time += progress.dt, settled = progress.settled;
+    ASSERT_LT(time, packing.patience());
+  }
+  EXPECT_TRUE(alone) << "stragglers were moved by themselves, else this tests little";
+}
+
+// A grain that balances on two others may roll on later: in 5 of 40 beds poured plainly one goes further than this.
+TEST(BedPacking, StaysSettledOnceItHasSettled) {
+  BedScene scene = bed_scene(200);
+  int restless = 0;
+  for (scene.source.seed = 1; scene.source.seed <= 16; ++scene.source.seed) {
+    Bed bed = settle(scene);
+    ASSERT_TRUE(bed.settled);
+    const Grains before = bed.grains;
+    BedPacking packing(scene);
+    for (int n = 0; n < 100; ++n) packing.advance(bed.grains, bed.contacts);
+    const PeriodicBox box(scene);
+    int moved = 0;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      moved += norm(box.shortest(bed.grains.position[i] - before.position[i])) > 0.05 * scene.grains.diameter;
+    EXPECT_LE(moved, 2) << "of 200, seed " << scene.source.seed;
+    restless += moved > 0;
+  }
+  EXPECT_LE(restless, 5) << "of 16; 1 % of such sixteens have more if one bed in eight is restless";
 }
 
 TEST(BedPacking, DoesNotTakeGrainsInTheAirForSettled) {
