@@ -103,7 +103,7 @@ TinyScene every_term() {
   Terms& terms = scene.terms;
   terms.self_disturbance = terms.added_mass = terms.shear_lift = terms.magnus = terms.viscous_torque = true;
   terms.wall_forces = terms.wet_restitution = terms.exposure = terms.turbulence = true;
-  add_ramp(scene, FlowRamp::Kind::lid, {0.1, 3}, 12);
+  add_ramp(scene, FlowRamp::Kind::lid, {0.1, 1.5}, 12);
   return {"every_term", scene};
 }
 
