@@ -32,9 +32,9 @@ double energy(const Grains& grains) {
 
 /// The whole of it: 1000 steps to warm up, then as many calls as the benchmark is registered with: every run of it ends in
 /// the same state, which the counters describe.
-void advance_bed(benchmark::State& run, bool eroding) {
+void advance_bed(benchmark::State& run, bool eroding, const GrainKernels& kernels) {
   Bed bed = settled_bed(std::size_t(run.range(0)));
-  GrainDynamics dynamics(bed.scene);
+  GrainDynamics dynamics(bed.scene, {}, kernels);
   const Drive drive = drive_of(bed, eroding);
   GrainHealth health;
   const auto advance = [&] {
@@ -107,12 +107,14 @@ void list_rebuild(benchmark::State& run) {
 
 void register_size(std::int64_t grains, std::int64_t calls) {
   const std::string million = grains == 1'000'000 ? "million/" : "";
-  for (const bool eroding : {false, true})
-    benchmark::RegisterBenchmark((million + "advance_bed/" + (eroding ? "eroding" : "at_rest")).c_str(), advance_bed,
-                                 eroding)
-        ->Arg(grains)
-        ->Iterations(calls)
-        ->Unit(benchmark::kMillisecond);
+  const std::pair<std::string, const GrainKernels*> kinds[] = {{"", &grain_kernels()}, {"avx2/", &grain_kernels_v3}};
+  for (const auto& [kind, kernels] : kinds)
+    for (const bool eroding : {false, true})
+      benchmark::RegisterBenchmark((kind + million + "advance_bed/" + (eroding ? "eroding" : "at_rest")).c_str(),
+                                   advance_bed, eroding, *kernels)
+          ->Arg(grains)
+          ->Iterations(calls)
+          ->Unit(benchmark::kMillisecond);
   const auto part = [&](const char* name, void (*function)(benchmark::State&)) {
     benchmark::RegisterBenchmark((million + name).c_str(), function)->Arg(grains)->Unit(benchmark::kMillisecond);
   };
