@@ -51,7 +51,7 @@ void advance_bed(benchmark::State& run, bool eroding, const GrainKernels& kernel
 
 /// The grains of a bed as the kernels see them, and its list.
 struct Workspace {
-  explicit Workspace(const Bed& bed) : list(bed.scene, nullptr, false), loads(bed.grains.size()) {
+  explicit Workspace(const Bed& bed) : list(bed.scene, nullptr, false, grains_at_once), loads(bed.grains.size()) {
     const Grains& g = bed.grains;
     for (std::size_t i = 0; i < g.size(); ++i) {
       const double mass = g.density[i] * sphere_volume(g.diameter[i]);
@@ -72,10 +72,15 @@ void contact_pass(benchmark::State& run) {
   const HertzMindlin law(bed.scene.grains);
   Workspace work(bed);
   const PairPass pairs = pair_pass(law, nullptr, work.bodies, bed.scene.dem_step, work.list);
+  const std::size_t n = work.bodies.size();
   for (auto _ : run) {
-    work.kernels.meet(pairs, 0, work.list.pairs.blocks.size());
+    PairWave wave(work.kernels, pairs, work.list);
     SumPass sum = sum_pass(work.bodies, work.list);
-    work.kernels.add_up(sum, 0, work.bodies.size(), work.loads.data());
+    for (std::size_t first = 0; first < n; first += grains_at_once) {
+      const std::size_t last = std::min(n, first + grains_at_once);
+      wave.meet_below(last);
+      work.kernels.add_up(sum, first, last, &work.loads[first]);
+    }
   }
   count_grain_steps(run, work.bodies.size());
   run.counters["listed_per_grain"] = double(work.list.pairs.size()) / double(work.bodies.size());

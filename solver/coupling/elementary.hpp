@@ -27,7 +27,8 @@ inline constexpr long long one_exponent = 1023, mantissa_bits = 52;
 
 }   // namespace elementary
 
-/// Natural logarithm of positive numbers, to 4e-16 of it; of 0, and of less than 2^-1022, about -709.
+/// Natural logarithm of positive numbers, to 4e-16 of it; of 0, and of less than 2^-1022, about -709; no number of
+/// what is none, or endless.
 inline Quad logarithm(Quad x) noexcept {
   using namespace elementary;
   const QuadMask bits = std::bit_cast<QuadMask>(x), none{};
@@ -44,7 +45,8 @@ inline Quad logarithm(Quad x) noexcept {
   Quad series = Quad{} + 1.0 / 23;
   for (int k = 21; k >= 3; k -= 2) series = fused(series, z, Quad{} + 1.0 / k);
   const Quad rest = fused(series, z * (s + s), exponent * ln2_low);
-  return fused(exponent, Quad{} + ln2_high, (s + s) + rest);
+  const Quad logarithm_of_x = fused(exponent, Quad{} + ln2_high, (s + s) + rest);
+  return fused(x, Quad{}, logarithm_of_x);   // passes on what is no number
 }
 
 /// Exponential, to 4e-16 of it; beyond +-700 that of +-700.

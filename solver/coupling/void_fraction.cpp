@@ -8,7 +8,7 @@ namespace {
 /// The splines of all directions before a move and their change, on the four cells of each that a move of less than one cell
 /// can touch.
 struct MovedSplines {
-  Quad before[4], change[4], passed[4];   // by cell; passed: what goes through the cell's lower face
+  Quad before[4], change[4], passed[4];   // by cell, the fourth only where !stays; passed: through its lower face
   std::ptrdiff_t corner;                  // padded index of the first of the four cells
   bool stays;                             // in its cell, and touches three of them in each direction
 

@@ -38,11 +38,11 @@ double drag_rate(const BedScene& scene, double d, double density) {
 }
 
 /// The longest that contacts bear [s]. Grains softer than "auto" overlap deeper, and the frequency of a contact goes with
-/// the sixth root of that.
+/// the sixth root of their stiffness; the fourth is on the safe side, and two square roots are the same bits everywhere.
 double settling_step(const BedScene& scene) {
   const GrainProperties& g = scene.grains;
   const double stiff = std::min(1.0, g.young_modulus / automatic_young_modulus(scene, bed_layers(scene)));
-  return longest_step * std::pow(stiff, 1.0 / 6) *
+  return longest_step * std::sqrt(std::sqrt(stiff)) *
          rayleigh_time(g.diameter * (1 - 2 * g.spread), g.density, g.young_modulus, g.poisson);
 }
 
@@ -62,6 +62,7 @@ struct BedPacking::Parts {
   double energy(const Grains&) const;
   bool carried(const Grains&, std::size_t) const;
   bool at_rest(const Grains&) const;
+  double time_within(const Grains&, std::size_t, double distance) const;
   int find_stragglers(const Grains&, const ContactHistory&);
   Progress move(GrainDynamics&, Grains&, ContactHistory&, int substeps);
   Progress move_all(Grains&, ContactHistory&);
@@ -106,14 +107,20 @@ bool BedPacking::Parts::at_rest(const Grains& grains) const {
   return energy(grains) < settled_energy;
 }
 
+/// How long a grain that falls freely takes at least to go a distance [m]: v t + g' t^2/2 = distance.
+double BedPacking::Parts::time_within(const Grains& grains, std::size_t i, double distance) const {
+  const double v = norm(grains.velocity[i]), g = norm(settling_push(scene, grains.density[i]));
+  return 2 * distance / (v + std::sqrt(v * v + 2 * g * distance));
+}
+
 /// For how many sub-steps the few grains that still move may be moved alone without leaving their neighbourhood; 0 if
 /// they are not few, or none.
 int BedPacking::Parts::find_stragglers(const Grains& grains, const ContactHistory& contacts) {
   std::vector<int> touches(grains.size());
   for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const bool wall = contacts.higher[k] >= grains.size();
-    touches[contacts.lower[k]] += wall ? steady_contacts : 1;   // a floor carries alone
-    if (!wall) ++touches[contacts.higher[k]];
+    const bool floor = contacts.higher[k] == static_cast<std::uint32_t>(Wall::z_low);
+    touches[contacts.lower[k]] += floor ? steady_contacts : 1;   // a floor carries alone
+    if (contacts.higher[k] < grains.size()) ++touches[contacts.higher[k]];
   }
   awake.resize(grains.size());
   double substeps = most_substeps;
@@ -123,8 +130,7 @@ int BedPacking::Parts::find_stragglers(const Grains& grains, const ContactHistor
     awake[i] = !grains.fixed[i] && (energy(grains, i) > slow || !carried(grains, i));
     if (!awake[i]) continue;
     ++count;
-    const double travel = norm(grains.velocity[i]) * scene.dem_step;   // per sub-step [m]
-    substeps = std::min(substeps, Stragglers::margin * grains.diameter[i] / travel);
+    substeps = std::min(substeps, time_within(grains, i, Stragglers::margin * grains.diameter[i]) / scene.dem_step);
   }
   const bool are_few = count > 0 && static_cast<double>(count) < few * static_cast<double>(grains.size());
   return are_few ? static_cast<int>(substeps) : 0;

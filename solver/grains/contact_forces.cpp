@@ -69,6 +69,15 @@ SumPass sum_pass(const Bodies& bodies, const NeighbourList& list) noexcept {
           loads.further_as_lower.data()};
 }
 
+void PairWave::meet_below(std::size_t grain) noexcept {
+  const std::size_t to_meet = list_.blocks_of_grains_below(grain);
+  while (met_ < to_meet) {   // never more at once than the ring holds: far loads are kept before the next turn
+    const std::size_t next = std::min(to_meet, met_ + list_.loads.ring_blocks);
+    kernels_.meet(pass_, met_, next);
+    list_.keep_far_loads(met_ = next, far_);
+  }
+}
+
 // A load is rounded before it is used, so that grain and wall get the same.
 Vec3 meet_walls(const HertzMindlin& rough, const HertzMindlin& smooth, const WetRestitution* wet, const Bodies& bodies,
                 double dt, double lid_speed, NeighbourList& list) noexcept {

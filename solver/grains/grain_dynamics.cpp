@@ -14,9 +14,6 @@ namespace bedload {
 
 namespace {
 
-// So few that the loads of their contacts are still in the first-level cache when they are added up.
-constexpr std::size_t grains_at_once = 64;
-
 /// Rare forces want the loads of all grains.
 bool any_rare(const BedScene& scene, ContactTerms terms) {
   return terms.lubrication || scene.grains.rolling_friction > 0;
@@ -110,7 +107,7 @@ Vec3 GrainDynamics::Workspace::advance(const GrainDrive& drive, double dt, doubl
   const std::size_t at_once = rare ? n : std::min(n, grains_at_once);
   loads.resize(at_once);
   Vec3 on_walls = meet_walls(rough, smooth, wet ? &*wet : nullptr, bodies, dt, lid_speed, list);
-  const PairPass pairs = pair_pass(rough, wet ? &*wet : nullptr, bodies, dt, list);
+  PairWave wave(kernels, pair_pass(rough, wet ? &*wet : nullptr, bodies, dt, list), list);
   SumPass sum = sum_pass(bodies, list);
   const MotionPass motion{bodies.spheres.data(),
                           bodies.motions.data(),
@@ -120,9 +117,9 @@ Vec3 GrainDynamics::Workspace::advance(const GrainDrive& drive, double dt, doubl
                           sums.data(),
                           dt};
   double fastest = 0;
-  for (std::size_t first = 0, met = 0, far = 0; first < n; first += at_once) {
-    const std::size_t last = std::min(n, first + at_once), to_meet = list.blocks_of_grains_below(last);
-    if (to_meet > met) kernels.meet(pairs, met, to_meet), list.keep_far_loads(met = to_meet, far);
+  for (std::size_t first = 0; first < n; first += at_once) {
+    const std::size_t last = std::min(n, first + at_once);
+    wave.meet_below(last);
     kernels.add_up(sum, first, last, loads.data());
     if (rare) on_walls += add_rare_forces(dt, loads);
     fastest = std::max(fastest, kernels.move(motion, first, last, loads.data()));

@@ -192,10 +192,10 @@ void NeighbourList::place_loads(std::size_t grains) {
   loads.first_wall = loads.ring_blocks * PairBlock::pairs + loads.far.size();
   const auto at = [](std::size_t load) { return static_cast<std::uint32_t>(load * sizeof(ContactLoad)); };
   const std::size_t last = loads.first_wall + wall_contacts.size();
-  if (std::max(last, pairs.size()) > UINT32_MAX / sizeof(ContactLoad))
+  constexpr std::size_t most = UINT32_MAX / sizeof(ContactLoad);   // whatever the numbering, and so the ring
+  if (const std::size_t all = pairs.size() + wall_contacts.size() + PairBlock::pairs; all > most)
     throw Error(ErrorKind::study_invalid,
-                fmt::format("grains: {} candidates for contact, at most {} fit into the list", pairs.size(),
-                            UINT32_MAX / sizeof(ContactLoad)),
+                fmt::format("grains: {} candidates for contact, at most {} fit into the list", all, most),
                 "fewer grains: about 45 million of a settled bed fit");
   const std::uint32_t none = at(last);
   loads.load.assign(last + 1, {});

@@ -1,8 +1,8 @@
 // A lone grain that falls through still fluid, against its own drag law and the walls: with the self-disturbance correction the
 // speed does not depend on the cells, without it the known error is there.
 #include <gtest/gtest.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

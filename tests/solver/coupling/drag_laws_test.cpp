@@ -138,5 +138,16 @@ TEST(DragLaws, TerminalSpeedBalancesWeightForEveryLaw) {
   }
 }
 
+// A state that has gone wrong must not look right to those who judge it.
+TEST(DragLaws, PassOnWhatIsNoNumber) {
+  const double no_number = std::nan("");
+  for (const DragLawName name : {DragLawName::di_felice, DragLawName::ergun, DragLawName::gidaspow,
+                                 DragLawName::koch_hill, DragLawName::beetstra, DragLawName::tang, DragLawName::rong}) {
+    EXPECT_TRUE(std::isnan(multiplier(name, no_number, 1))) << name_of(name);
+    EXPECT_TRUE(std::isnan(multiplier(name, 0.5, no_number))) << name_of(name);
+  }
+  EXPECT_TRUE(std::isnan(multiplier(DragLawName::schiller_naumann, 1, no_number)));
+}
+
 }   // namespace
 }   // namespace bedload
