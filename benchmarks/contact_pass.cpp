@@ -89,7 +89,7 @@ void contact_pass(benchmark::State& run) {
 void motion(benchmark::State& run) {
   const Bed& bed = settled_bed(std::size_t(run.range(0)));
   Workspace work(bed);
-  std::vector<Load> sums(work.loads.size());
+  std::vector<LoadSum> sums(work.loads.size());
   const std::vector<Push> push(work.loads.size(), Push{{}, 1});   // none: the grains stay
   const MotionPass pass{work.bodies.spheres.data(),
                         work.bodies.motions.data(),
@@ -97,6 +97,7 @@ void motion(benchmark::State& run) {
                         nullptr,
                         work.list.inverse_skins().data(),
                         sums.data(),
+                        false,
                         bed.scene.dem_step};
   for (auto _ : run) work.kernels.move(pass, 0, work.bodies.size(), work.loads.data());
   count_grain_steps(run, work.bodies.size());

@@ -59,6 +59,13 @@ struct alignas(64) Load {
 };
 static_assert(sizeof(Load) == 64);
 
+/// Loads of some sub-steps, added up.
+struct alignas(16) LoadSum {
+  Vec3 force;    // [N]
+  Vec3 torque;   // [N m]
+};
+static_assert(sizeof(LoadSum) == 48);
+
 /// What a contact does to its lower grain; its partner gets the opposite force and the same torque per radius.
 struct alignas(32) ContactLoad {
   float force[3];   // [N]

@@ -36,7 +36,7 @@ struct GrainDynamics::Workspace {
   void take(const Grains&, const GrainDrive&, double dt);
   void give(Grains&, int substeps) const;
   void prepare_list(ContactHistory&, double dt, bool list_holds_springs);
-  Vec3 advance(const GrainDrive&, double dt, double lid_speed);
+  Vec3 advance(const GrainDrive&, double dt, double lid_speed, bool first_substep);
   Vec3 add_rare_forces(double dt, std::span<Load>);
   double deepest_overlap() const;
 
@@ -52,13 +52,14 @@ struct GrainDynamics::Workspace {
   NeighbourList list;
   Bodies bodies;
   std::vector<Push> push;
-  std::vector<Load> loads, sums;
+  std::vector<Load> loads;
+  std::vector<LoadSum> sums;
 };
 
 void GrainDynamics::Workspace::take(const Grains& grains, const GrainDrive& drive, double dt) {
   const std::size_t n = grains.size();
   bodies.spheres.resize(n), bodies.motions.resize(n), push.resize(n);
-  sums.assign(n, {});
+  sums.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double mass = grains.density[i] * sphere_volume(grains.diameter[i]);
     const double inertia = drive.added_mass.empty() ? mass : mass + drive.added_mass[i];
@@ -101,7 +102,7 @@ Vec3 GrainDynamics::Workspace::add_rare_forces(double dt, std::span<Load> of) {
 
 /// One sub-step. All pairs of a grain have a lower id no higher than its own: once those are met, nothing asks for the grain
 /// any more, and it may move. Returns the force of the grains on the walls [N].
-Vec3 GrainDynamics::Workspace::advance(const GrainDrive& drive, double dt, double lid_speed) {
+Vec3 GrainDynamics::Workspace::advance(const GrainDrive& drive, double dt, double lid_speed, bool first_substep) {
   const std::size_t n = bodies.size();
   const bool rare = rolling || films;
   const std::size_t at_once = rare ? n : std::min(n, grains_at_once);
@@ -115,6 +116,7 @@ Vec3 GrainDynamics::Workspace::advance(const GrainDrive& drive, double dt, doubl
                           drive.spin_push.empty() ? nullptr : drive.spin_push.data(),
                           list.inverse_skins().data(),
                           sums.data(),
+                          first_substep,
                           dt};
   double fastest = 0;
   for (std::size_t first = 0; first < n; first += at_once) {
@@ -132,12 +134,16 @@ double GrainDynamics::Workspace::deepest_overlap() const {
   // The overlap per r_i + r_j times this is no less than the overlap per diameter of the smaller: few pairs need more.
   const double most_unlike = list.most_unlike_radii();
   double deepest = 0;
-  for (std::size_t pair = 0; pair < list.pairs.size(); ++pair) {
-    const PairBlock& b = list.pairs.blocks[pair / PairBlock::pairs];
-    const std::size_t k = pair % PairBlock::pairs;
-    if (!(b.depth[k] * b.inverse_radius_sum[k] * most_unlike > deepest)) continue;
-    const double smaller = std::min(bodies.spheres[b.lower[k]].radius, bodies.spheres[b.higher[k]].radius);
-    deepest = std::max(deepest, b.depth[k] / (2 * smaller));
+  for (const PairBlock& b : list.pairs.blocks) {
+    int deeper = 0;   // counted, which takes the compiler no order
+    for (std::size_t k = 0; k < PairBlock::pairs; ++k)
+      deeper += b.depth[k] * b.inverse_radius_sum[k] * most_unlike > deepest;
+    if (deeper == 0) continue;
+    for (std::size_t k = 0; k < PairBlock::pairs; ++k) {
+      if (!(b.depth[k] > 0)) continue;
+      const double smaller = std::min(bodies.spheres[b.lower[k]].radius, bodies.spheres[b.higher[k]].radius);
+      deepest = std::max(deepest, b.depth[k] / (2 * smaller));
+    }
   }
   for (const WallContact& c : list.wall_contacts)
     deepest = std::max(deepest, c.depth / (2 * bodies.spheres[c.grain].radius));
@@ -156,7 +162,7 @@ GrainHealth GrainDynamics::advance(Grains& grains, ContactHistory& contacts, con
   w.take(grains, drive, dt);
   for (int s = 0; s < substeps; ++s) {
     w.prepare_list(contacts, dt, s > 0);
-    health.force_on_walls += w.advance(drive, dt, lid_speed);
+    health.force_on_walls += w.advance(drive, dt, lid_speed, s == 0);
   }
   w.list.save(contacts);
   w.give(grains, substeps);

@@ -159,16 +159,31 @@ void add_up(SumPass& pass, std::size_t first, std::size_t last, Load* loads) {
   pass = s;
 }
 
+BEDLOAD_INLINE void add_to(LoadSum& sum, Row4 force, Row4 torque, bool begins) {
+  Row4 first = __builtin_shufflevector(force, torque, 0, 1, 2, 4);   // a sum has no gaps
+  Row2 last = __builtin_shufflevector(torque, torque, 1, 2);
+  if (!begins) first += load<Row4, 16>(&sum.force.x), last += load<Row2>(&sum.torque.y);
+  store<Row4, 16>(&sum.force.x, first), store(&sum.torque.y, last);
+}
+
+/// The processor foresees a stretch of memory only to the end of its page, and four of them end every some tens of grains.
+BEDLOAD_INLINE void expect(const MotionPass& p, std::size_t grain) {
+  __builtin_prefetch(p.motions + grain, 1);
+  __builtin_prefetch(p.spheres + grain, 1);
+  __builtin_prefetch(p.sums + grain, 1);
+  __builtin_prefetch(p.push + grain);
+}
+
 double move(const MotionPass& pass, std::size_t first, std::size_t last, const Load* loads) {
   const MotionPass p = pass;
   Row4 fastest{};   // squares of the components of velocity per skin
   for (std::size_t i = first; i < last; ++i) {
+    expect(p, i + 64);
     Motion& m = p.motions[i];
     Sphere& s = p.spheres[i];
     const Load& load_of = loads[i - first];
     const Row4 force = load<Row4>(&load_of.force.x), torque = load<Row4>(&load_of.torque.x);
-    store(&p.sums[i].force.x, load<Row4>(&p.sums[i].force.x) + force);
-    store(&p.sums[i].torque.x, load<Row4>(&p.sums[i].torque.x) + torque);
+    add_to(p.sums[i], force, torque, p.begins_sums);
 
     const double dt = m.inverse_mass != 0 ? p.dt : 0;
     const Row4 push = load<Row4>(&p.push[i].acceleration.x);

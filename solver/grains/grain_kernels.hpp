@@ -55,7 +55,8 @@ struct MotionPass {
   const Push* push;
   const Vec3* spin_push;        // [rad/s2]; null: none
   const double* inverse_skin;   // of the neighbour list; 0: as if it were endless [1/m]
-  Load* sums;                   // over the sub-steps
+  LoadSum* sums;                // over the sub-steps
+  bool begins_sums;             // whatever they held
   double dt;                    // [s]
 };
 

@@ -44,17 +44,8 @@ NeighbourList::NeighbourList(const BedScene& scene, const WetRestitution* wet, b
       rolls_(scene.grains.rolling_friction > 0),
       summed_at_once_(summed_at_once) {}
 
-bool NeighbourList::same_grains(const Bodies& bodies) const noexcept {
-  if (origin_.size() != bodies.size()) return false;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies.spheres[i].radius != radius_[i] || (bodies.motions[i].inverse_mass == 0) != (inverse_mass_[i] == 0))
-      return false;
-  return true;
-}
-
-/// Masses of the contacts, if any grain's has changed.
+/// Masses of the contacts.
 void NeighbourList::weigh(const Bodies& bodies) noexcept {
-  if (std::ranges::equal(bodies.motions, inverse_mass_, {}, &Motion::inverse_mass)) return;
   std::ranges::transform(bodies.motions, inverse_mass_.begin(), &Motion::inverse_mass);
   for (PairBlock& b : pairs.blocks)
     for (std::size_t k = 0; k < PairBlock::pairs; ++k)
@@ -71,15 +62,22 @@ double NeighbourList::furthest(const Bodies& bodies) const noexcept {
 }
 
 bool NeighbourList::covers(const Bodies& bodies) noexcept {
-  if (!same_grains(bodies)) return false;
+  if (origin_.size() != bodies.size()) return false;
+  double most = 0;
+  bool others = false, heavier = false;   // once over all that bodies hold, which is more than a cache does
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Vec3 moved = box_.shortest(bodies.spheres[i].position - origin_[i]);
-    origin_[i] = bodies.spheres[i].position - moved;   // the image that belongs to the body
-    if (fixed_[i] && norm2(moved) > 0) return false;
+    const Sphere& sphere = bodies.spheres[i];
+    const double inverse_mass = bodies.motions[i].inverse_mass;
+    const Vec3 moved = box_.shortest(sphere.position - origin_[i]);
+    origin_[i] = sphere.position - moved;   // the image that belongs to the body
+    const double way = norm2(moved);
+    others |= sphere.radius != radius_[i] || (inverse_mass == 0) != (fixed_[i] != 0) || (fixed_[i] && way > 0);
+    heavier |= inverse_mass != inverse_mass_[i];
+    most = std::max(most, inverse_skin_[i] * inverse_skin_[i] * way);
   }
-  travelled_ = furthest(bodies);
-  if (!(travelled_ <= 1)) return false;
-  weigh(bodies);
+  travelled_ = std::sqrt(most);
+  if (others || !(travelled_ <= 1)) return false;
+  if (heavier) weigh(bodies);
   return true;
 }
 
@@ -271,34 +269,40 @@ void NeighbourList::load(const ContactHistory& history) {
   }
 }
 
-/// Without a branch on what touches: every candidate is written, and overwritten by the next if it is apart.
+/// Of pairs [first, last), those that touch, behind the n that are kept; returns how many are kept then. Without a branch
+/// on what touches: every candidate is written, and overwritten by the next if it is apart.
+std::size_t NeighbourList::keep_pairs(std::size_t first, std::size_t last, std::size_t n) noexcept {
+  std::uint32_t *const lower = kept_.lower.data(), *const higher = kept_.higher.data();
+  Vec3* const spring = kept_.spring.data();
+  while (first < last) {
+    const PairBlock& b = pairs.blocks[first / PairBlock::pairs];
+    const std::size_t in_block = std::min(last, (first / PairBlock::pairs + 1) * PairBlock::pairs);
+    for (; first < in_block; ++first) {
+      const std::size_t k = first % PairBlock::pairs;
+      lower[n] = b.lower[k], higher[n] = b.higher[k];
+      spring[n] = {b.spring_x[k], b.spring_y[k], b.spring_z[k]};
+      if (wet_) kept_.damping[n] = pairs.damping(first);
+      if (rolls_) kept_.rolling[n] = pairs.rolling[first];
+      n += b.depth[k] > 0;
+    }
+  }
+  return n;
+}
+
 void NeighbourList::save(ContactHistory& history) {
   const std::size_t most = pairs.size() + wall_contacts.size() + 1;
   kept_.lower.resize(most), kept_.higher.resize(most), kept_.spring.resize(most);
   kept_.damping.resize(wet_ ? most : 0), kept_.rolling.resize(rolls_ ? most : 0);
-  std::size_t n = 0, touch = 0;
-  const auto keep_walls_of_grains_below = [&](std::uint32_t grain) {
-    for (; touch < wall_contacts.size() && wall_contacts[touch].grain < grain; ++touch) {
-      const WallContact& c = wall_contacts[touch];
-      kept_.lower[n] = c.grain, kept_.higher[n] = static_cast<std::uint32_t>(walls_[c.wall].name);
-      kept_.spring[n] = c.spring;
-      if (wet_) kept_.damping[n] = c.damping;
-      if (rolls_) kept_.rolling[n] = c.rolling;
-      n += c.depth > 0;
-    }
-  };
-  for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
-    const PairBlock& b = pairs.blocks[pair / PairBlock::pairs];
-    const std::size_t k = pair % PairBlock::pairs;
-    keep_walls_of_grains_below(b.lower[k]);
-    kept_.lower[n] = b.lower[k], kept_.higher[n] = b.higher[k];
-    kept_.spring[n] = {b.spring_x[k], b.spring_y[k], b.spring_z[k]};
-    if (wet_) kept_.damping[n] = pairs.damping(pair);
-    if (rolls_) kept_.rolling[n] = pairs.rolling[pair];
-    n += b.depth[k] > 0;
+  std::size_t n = 0, pair = 0;
+  for (const WallContact& c : wall_contacts) {   // after the pairs whose lower grain is theirs
+    n = keep_pairs(pair, first_pair_[c.grain + 1], n), pair = first_pair_[c.grain + 1];
+    kept_.lower[n] = c.grain, kept_.higher[n] = static_cast<std::uint32_t>(walls_[c.wall].name);
+    kept_.spring[n] = c.spring;
+    if (wet_) kept_.damping[n] = c.damping;
+    if (rolls_) kept_.rolling[n] = c.rolling;
+    n += c.depth > 0;
   }
-  keep_walls_of_grains_below(UINT32_MAX);
-  kept_count_ = n;
+  kept_count_ = n = keep_pairs(pair, pairs.size(), n);
   const auto hand_over = [n](auto& to, const auto& from) {
     to.assign(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(std::min(n, from.size())));
   };

@@ -106,7 +106,7 @@ class NeighbourList {
   void list_walls(const Bodies&);
   void place_loads(std::size_t grains);
   void place_pairs(std::size_t grains);
-  bool same_grains(const Bodies&) const noexcept;
+  std::size_t keep_pairs(std::size_t first, std::size_t last, std::size_t n) noexcept;
   void weigh(const Bodies&) noexcept;
   double furthest(const Bodies&) const noexcept;
 

@@ -3,10 +3,13 @@
 
 #include <immintrin.h>
 
+#include <cstddef>
+
 #include "solver/grains/lanes.hpp"
 
 namespace bedload {
 
+using Row2 = double __attribute__((vector_size(16)));
 using Row4 = double __attribute__((vector_size(32)));
 using Row8 = float __attribute__((vector_size(32)));
 
@@ -21,16 +24,19 @@ using Floats = Row8;
 using Doubles = Row4;
 #endif
 
-/// Aligned to the register's size. Not through a cast: rows are structs of named numbers.
-template <class Register, class Number>
+template <class Register>
+constexpr std::size_t alignment_of = sizeof(Register) < 64 ? sizeof(Register) : 64;
+
+/// Not through a cast: rows are structs of named numbers.
+template <class Register, std::size_t alignment = alignment_of<Register>, class Number>
 BEDLOAD_INLINE Register load(const Number* at) {
   Register r;
-  __builtin_memcpy(&r, __builtin_assume_aligned(at, sizeof(Register) < 64 ? sizeof(Register) : 64), sizeof(Register));
+  __builtin_memcpy(&r, __builtin_assume_aligned(at, alignment), sizeof(Register));
   return r;
 }
-template <class Register, class Number>
+template <class Register, std::size_t alignment = alignment_of<Register>, class Number>
 BEDLOAD_INLINE void store(Number* at, Register r) {
-  __builtin_memcpy(__builtin_assume_aligned(at, sizeof(Register) < 64 ? sizeof(Register) : 64), &r, sizeof(Register));
+  __builtin_memcpy(__builtin_assume_aligned(at, alignment), &r, sizeof(Register));
 }
 
 // By name: the compiler converts rows of four two by two.

@@ -238,25 +238,28 @@ TEST(GrainKernels, MoveGrainsByNewtonsLaws) {
     Crowd crowd(false), before(false);
     const std::size_t n = crowd.bodies.size();
     const double dt = 1e-5;
-    std::vector<Load> loads(n), sums(n);
+    std::vector<Load> loads(n);
+    std::vector<LoadSum> sums(n, {{1, 2, 3}, {4, 5, 6}});
     std::vector<Vec3> spin_push(n);
     std::vector<double> inverse_skin(n, 1 / 1e-5);
     for (std::size_t i = 0; i < n; ++i) {
       const Vec3 f = 1e-6 * crowd.push[i].acceleration;
       loads[i].force = f, loads[i].torque = {1e-9 * f.y, -1e-9 * f.x, 2e-9 * f.z}, spin_push[i] = {f.z, f.x, f.y};
     }
-    const MotionPass pass{crowd.bodies.spheres.data(),
-                          crowd.bodies.motions.data(),
-                          crowd.push.data(),
-                          spin_push.data(),
-                          inverse_skin.data(),
-                          sums.data(),
-                          dt};
+    MotionPass pass{crowd.bodies.spheres.data(),
+                    crowd.bodies.motions.data(),
+                    crowd.push.data(),
+                    spin_push.data(),
+                    inverse_skin.data(),
+                    sums.data(),
+                    true,
+                    dt};
     const double fastest = kernels->move(pass, 0, n, loads.data());
     for (std::size_t i = 0; i < n; ++i) {
       const Motion &was = before.bodies.motions[i], &is = crowd.bodies.motions[i];
       const Sphere &stood = before.bodies.spheres[i], &stands = crowd.bodies.spheres[i];
       ASSERT_EQ(sums[i].force, loads[i].force);
+      ASSERT_EQ(sums[i].torque, loads[i].torque);
       ASSERT_EQ(is.inverse_mass, was.inverse_mass);
       ASSERT_EQ(is.inverse_inertia, was.inverse_inertia);
       ASSERT_EQ(stands.radius, stood.radius);
@@ -276,6 +279,12 @@ TEST(GrainKernels, MoveGrainsByNewtonsLaws) {
         ASSERT_EQ(stands.velocity[c], static_cast<float>(v[c]));
         ASSERT_EQ(stands.surface_velocity[c], static_cast<float>(stands.radius * is.spin[c]));
       }
+    }
+    pass.begins_sums = false;
+    kernels->move(pass, 0, n, loads.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_EQ(sums[i].force, 2 * loads[i].force);
+      ASSERT_EQ(sums[i].torque, 2 * loads[i].torque);
     }
   }
 }
