@@ -2,7 +2,6 @@
 #include "solver/fluid/boundaries.hpp"
 
 #include <algorithm>
-#include <initializer_list>
 
 namespace bedload {
 namespace {
@@ -15,48 +14,46 @@ struct Image {
 };
 
 /// Fills layers of one direction from others, in the order of the images: inner layers come before outer ones, so that
-/// a box one cell wide reflects its own reflections.
-void fill_layers(const StaggeredGrid& g, double* field, int direction, std::initializer_list<Image> images) noexcept {
+/// a box one cell wide reflects its own reflections. A layer is a contiguous stretch of each of `blocks`.
+template <int count>
+void fill_layers(const StaggeredGrid& g, double* field, int direction, const Image (&images)[count]) noexcept {
   constexpr int ghosts = StaggeredGrid::ghosts;
-  const std::ptrdiff_t step = g.stride(direction);
-  const int nz = g.cells[2] + 2 * ghosts;
+  const std::ptrdiff_t stretch = g.stride(direction), block = stretch * (g.cells[direction] + 2 * ghosts);
+  const std::size_t blocks = g.padded_size() / block;
+  double* first = field + ghosts * stretch;
   if (direction == 2) {
-    const std::size_t rows = g.padded_size() / nz;
-    for (std::size_t r = 0; r < rows; ++r) {
-      double* row = field + r * nz + ghosts;
-      for (const Image& m : images) row[m.ghost] = m.of(row[m.source]);
-    }
+    for (std::size_t b = 0; b < blocks; ++b, first += block)
+      for (int m = 0; m < count; ++m) first[images[m].ghost] = images[m].of(first[images[m].source]);
     return;
   }
-  const int other = 1 - direction;
-  for (const Image& m : images)
-    for (int r = 0; r < g.cells[other] + 2 * ghosts; ++r) {
-      double* row = field + r * g.stride(other);
-      double* ghost = row + (m.ghost + ghosts) * step;
-      const double* source = row + (m.source + ghosts) * step;
-      for (int k = 0; k < nz; ++k) ghost[k] = m.of(source[k]);
+  for (std::size_t b = 0; b < blocks; ++b, first += block)
+    for (const Image& m : images) {
+      double* const ghost = first + m.ghost * stretch;
+      const double* const source = first + m.source * stretch;
+      for (std::ptrdiff_t k = 0; k < stretch; ++k) ghost[k] = m.of(source[k]);
     }
 }
 
 void fill_periodic(const StaggeredGrid& g, double* field, int c) noexcept {
   const int n = g.cells[c];
-  fill_layers(g, field, c,
-              {{-1, n - 1, 1, 0}, {n, 0, 1, 0}, {-2, n > 1 ? n - 2 : 0, 1, 0}, {n + 1, n > 1 ? 1 : 0, 1, 0}});
+  const Image images[] = {{-1, n - 1, 1, 0}, {n, 0, 1, 0}, {-2, n > 1 ? n - 2 : 0, 1, 0}, {n + 1, n > 1 ? 1 : 0, 1, 0}};
+  fill_layers(g, field, c, images);
 }
 
 void fill_centred_at_walls(const StaggeredGrid& g, double* field, int c, double low_sign, double high_sign,
                            double high_offset) noexcept {
   const int n = g.cells[c];
-  fill_layers(g, field, c,
-              {{-1, 0, low_sign, 0},
-               {n, n - 1, high_sign, high_offset},
-               {-2, 1, low_sign, 0},
-               {n + 1, n - 2, high_sign, high_offset}});
+  const Image images[] = {{-1, 0, low_sign, 0},
+                          {n, n - 1, high_sign, high_offset},
+                          {-2, 1, low_sign, 0},
+                          {n + 1, n - 2, high_sign, high_offset}};
+  fill_layers(g, field, c, images);
 }
 
 void fill_normal_at_walls(const StaggeredGrid& g, double* field, int c) noexcept {
   const int n = g.cells[c];
-  fill_layers(g, field, c, {{0, 0, 0, 0}, {n, n, 0, 0}, {-1, 1, -1, 0}, {n + 1, n - 1, -1, 0}, {-2, 2, -1, 0}});
+  const Image images[] = {{0, 0, 0, 0}, {n, n, 0, 0}, {-1, 1, -1, 0}, {n + 1, n - 1, -1, 0}, {-2, 2, -1, 0}};
+  fill_layers(g, field, c, images);
 }
 
 }   // namespace
