@@ -14,6 +14,7 @@ MultigridLevel::MultigridLevel(std::array<int, 3> cells, std::array<bool, 3> per
   x_.assign(at_.size(), 0);
   right_.assign(at_.size(), 0);
   aggregates_.assign(at_.plane_of_rows(), 0);
+  for (auto& offsets : kept_) offsets.assign(cells[0] + 1, 0);
 }
 
 void MultigridLevel::set_couplings(int c, int i, int j, const double* values, double scale) noexcept {
@@ -40,6 +41,19 @@ void MultigridLevel::finish_couplings() noexcept {
           inverse_diagonal_[n] = diagonal > 0 ? 1 / diagonal : 0;
         }
       }
+    }
+  }
+  find_kept_planes();
+}
+
+void MultigridLevel::find_kept_planes() noexcept {
+  for (int a = 0; a < 4; ++a) {
+    const float* const values = a < 3 ? coupling_[a].data() : inverse_diagonal_.data();
+    for (int i = 0; i <= at_.cells[0]; ++i) {
+      const float* const plane = values + at_.row(i, -1);
+      kept_[a][i] = at_.row(i, -1);
+      if (i > 0 && std::equal(plane, plane + at_.plane_stride(), values + kept_[a][i - 1]))
+        kept_[a][i] = kept_[a][i - 1];
     }
   }
 }

@@ -47,6 +47,7 @@ class MultigridLevel {
 
  private:
   struct Stencil;
+  void find_kept_planes() noexcept;
   template <class Kernel>
   void for_each_row(int plane, Colour, const float* field, Kernel&& kernel) const noexcept;
   void relax(int plane, Colour) noexcept;
@@ -65,7 +66,10 @@ class MultigridLevel {
   SplitGrid at_;
   std::array<std::vector<float>, 3> coupling_;
   std::vector<float> inverse_diagonal_, x_, right_;   // zero on padding, so that kernels may run over it
-  std::vector<float> aggregates_;                     // a plane of the next coarser level, its rows in natural order
+  // Of each array of the matrix (couplings along x, y, z, inverse diagonal), the offset from which its x-planes 0..n are read:
+  // of planes that are alike the first, which stays in cache.
+  std::array<std::vector<std::size_t>, 4> kept_;
+  std::vector<float> aggregates_;   // a plane of the next coarser level, its rows in natural order
   std::vector<float>
       lower_share_;   // of odd cells: what of their correction the cell below gives, the one above the rest
   PlaneSums sums_;

@@ -11,7 +11,7 @@ namespace bedload {
 /// The cells of one colour and parity of a plane with all that their stencil reads, as pointers that one index serves:
 /// couplings w and neighbours x, lower and upper along each direction.
 struct MultigridLevel::Stencil {
-  const float *wx, *wx_up, *wy, *wy_up, *wz, *wz_up;
+  const float *wx, *wx_up, *wy, *wy_up, *wz, *wz_up, *inverse_diagonal;
   const float *here, *x, *x_up, *y, *y_up, *z, *z_up;
 
   /// b + sum of w times neighbour, of cells n...
@@ -37,11 +37,27 @@ template <class Kernel>
 void MultigridLevel::for_each_row(int plane, Colour colour, const float* field, Kernel&& kernel) const noexcept {
   const std::size_t dx = at_.plane_stride(), dy = at_.row_stride();
   for (int parity : {0, 1}) {
-    const std::size_t start = at_.row(plane, 0) + 1 + parity * at_.half;
-    const std::size_t other = at_.row(plane, 0) + 1 + (1 - parity) * at_.half + parity;   // the cells above
-    const float *wx = &coupling_[0][start], *wy = &coupling_[1][start], *f = field + start;
-    const float *wz = &coupling_[2][start], *wz_up = &coupling_[2][other], *above = field + other;
-    const Stencil s{wx, wx + dx, wy, wy + dy, wz, wz_up, f, f - dx, f + dx, f - dy, f + dy, above - 1, above};
+    const std::size_t first_row = at_.row(plane, 0), in_plane = first_row - at_.row(plane, -1);
+    const std::size_t own = 1 + parity * at_.half, other = 1 + (1 - parity) * at_.half + parity;   // the cells above
+    const auto matrix = [&](int array, int i, std::size_t offset) {
+      return (array < 3 ? coupling_[array] : inverse_diagonal_).data() + kept_[array][i] + in_plane + offset;
+    };
+    const std::size_t start = first_row + own;
+    const float *wy = matrix(1, plane, own), *f = field + start, *above = field + first_row + other;
+    const Stencil s{matrix(0, plane, own),
+                    matrix(0, plane + 1, own),
+                    wy,
+                    wy + dy,
+                    matrix(2, plane, own),
+                    matrix(2, plane, other),
+                    matrix(3, plane, own),
+                    f,
+                    f - dx,
+                    f + dx,
+                    f - dy,
+                    f + dy,
+                    above - 1,
+                    above};
     const int count = SplitGrid::padded((at_.cells[2] - parity + 1) / 2);
     for (int j = (plane + colour + parity) & 1; j < at_.cells[1]; j += 2)
       kernel(s, start, j * at_.row_stride(), count, j);
@@ -51,7 +67,7 @@ void MultigridLevel::for_each_row(int plane, Colour colour, const float* field, 
 /// Ghosts are renewed behind the cells that read them, so a whole colour sees the values of before its sweep.
 void MultigridLevel::relax(int plane, Colour colour) noexcept {
   for_each_row(plane, colour, x_.data(), [this](const Stencil& s, std::size_t start, int first, int count, int) {
-    const float *b = &right_[start] + first, *inverse = &inverse_diagonal_[start] + first;
+    const float *b = &right_[start] + first, *inverse = s.inverse_diagonal + first;
     float* x = &x_[start] + first;
     for_each_vector(count, [=](auto v, int m) {
       using V = decltype(v);
@@ -63,8 +79,8 @@ void MultigridLevel::relax(int plane, Colour colour) noexcept {
 
 /// The first red half-sweep from zero needs no neighbours.
 void MultigridLevel::begin_with_red(int plane) noexcept {
-  for_each_row(plane, red, x_.data(), [this](const Stencil&, std::size_t start, int first, int count, int) {
-    const float *b = &right_[start] + first, *inverse = &inverse_diagonal_[start] + first;
+  for_each_row(plane, red, x_.data(), [this](const Stencil& s, std::size_t start, int first, int count, int) {
+    const float *b = &right_[start] + first, *inverse = s.inverse_diagonal + first;
     float* __restrict x = &x_[start] + first;
     for (int m = 0; m < count; ++m) x[m] = inverse[m] * b[m];
   });
