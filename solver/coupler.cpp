@@ -23,7 +23,8 @@ Coupler::Parts::Parts(const Scene& given)
       response(grid),
       rhs(grid),
       correction(grid),
-      kick(grid) {
+      kick(grid),
+      carried(grid) {
   if (scene.terms.turbulence) turbulence.emplace(grid, scene.bed.fluid.viscosity);
   if (scene.terms.added_mass || explicit_forces()) added_exchange = reaction = Deposited(grid);
   if (scene.terms.viscous_torque) spin_exchange.emplace(grid);

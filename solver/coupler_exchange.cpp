@@ -72,6 +72,23 @@ void Coupler::Parts::predict_spins(const State& state, double dt) {
   spin_exchange->prepare(stencils, spin_strength, spin_target, smoothing);
 }
 
+/// Whether viscous stress joins the drag solve.
+bool Coupler::Parts::implicit_viscosity(double dt) const {
+  const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
+  const double largest = scene.bed.fluid.viscosity + (turbulence ? turbulence->largest() : 0);
+  return largest * dt > explicit_viscosity_limit * shortest_edge * shortest_edge;
+}
+
+/// u* = u^n + T a: without grains and with explicit viscosity no face knows of another.
+void Coupler::Parts::move_fluid_alone(State& state, double dt) {
+  for (int c = 0; c < 3; ++c)
+    for_each_face_row(grid, c, [&](std::size_t row, int length) {
+      double* __restrict u = state.fluid.velocity.component(c) + row;
+      const double *old = carried.component(c) + row, *a = acceleration.component(c) + row;
+      for (int k = 0; k < length; ++k) u[k] = old[k] + dt * a[k];
+    });
+}
+
 /// What changes the fluid besides drag: T eps a, and the reaction of explicit forces and of added mass.
 void Coupler::Parts::find_impulse(const State& state, double dt) {
   for (int c = 0; c < 3; ++c) {
@@ -133,21 +150,25 @@ void Coupler::Parts::find_carried_mass(const Grains& grains) {
 /// The one implicit solve of the step for all that fluid and grains exchange; leaves the grains' constant push.
 void Coupler::Parts::solve_drag(State& state, double dt) {
   Stopwatch watch(times.drag);
-  const double nu = scene.bed.fluid.viscosity;
+  const bool implicit = implicit_viscosity(dt);
   predict_grains(state, dt);
   if (spin_exchange) predict_spins(state, dt);
+  if (fluid_alone() && !implicit) {
+    move_fluid_alone(state, dt);
+    return book_drive_of_fluid(state);
+  }
+  if (fluid_alone()) state.fluid.velocity = carried;
   find_impulse(state, dt);
   if (scene.terms.added_mass) find_carried_mass(state.grains);
-  const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
-  const double largest = nu + (turbulence ? turbulence->largest() : 0);
-  const bool implicit = largest * dt > explicit_viscosity_limit * shortest_edge * shortest_edge;
   DragProblem problem{.stencils = stencils,
                       .exchange = exchange,
                       .relaxation = relaxation,
                       .ballistic = ballistic,
                       .flow_velocity = flow.velocity,
                       .smoothing = smoothing};
-  if (implicit) problem.implicit_viscosity = nu * dt, problem.turbulence = turbulence ? &*turbulence : nullptr;
+  if (implicit)
+    problem.implicit_viscosity = scene.bed.fluid.viscosity * dt,
+    problem.turbulence = turbulence ? &*turbulence : nullptr;
   problem.step = dt;
   problem.spin = spin_exchange ? &*spin_exchange : nullptr;
   health.drag_iterations = drag.solve(grid, problem, before.face, impulse, state.fluid.velocity, flow_velocity);

@@ -39,6 +39,12 @@ void Coupler::Parts::deposit_at_new_positions(const State& state, double dt) {
   Stopwatch watch(times.deposit);
   if (failed()) return;
   const Grains& grains = state.grains;
+  if (fluid_alone()) {
+    if (!response.mobile_fraction.reach.empty())   // of grains that are no longer there
+      find_mixture_response(grid, grains, stencils, exchange, scene.bed.fluid.density, before, model_b(), response,
+                            smoothing);
+    return;
+  }
   const Reach former = stencils.reach;
   find_stencils(grid, grains, stencils);
   deposit_swept_flux(grid, grains, positions, moved, united(former, stencils.reach), dt, solid_flux, smoothing);
@@ -57,6 +63,7 @@ void Coupler::Parts::deposit_at_new_positions(const State& state, double dt) {
 void Coupler::Parts::transport_momentum(State& state, double dt) {
   Stopwatch watch(times.transport);
   if (failed()) return;
+  if (fluid_alone()) return transport(grid, carried, dt, carried, state.fluid.velocity, transport_scratch);
   transport(grid, flux, before.face, after.face, dt, carried, state.fluid.velocity, transport_scratch);
   std::swap(before, after);
   positions = state.grains.position;

@@ -53,13 +53,15 @@ struct Coupler::Parts {
   Stencils stencils;
   VoidFraction before, after;
   FaceFields acceleration, impulse, flux;
-  double courant_rate = 0;   // of u^n: cells that it crosses per time [1/s]
+  double courant_rate = 0;       // of u^n: cells that it crosses per time [1/s]
+  bool responds_alone = false;   // the pressure's last matrix was that of fluid alone
   SolidFlux solid_flux;
   Woven woven, woven_too;
   MixtureResponse response;
   Field<Centre> rhs, correction;
-  FaceFields kick, carried, shared;
-  FaceFields seen;   // what grains read of a field; only with a smoothing
+  FaceFields kick, shared;
+  FaceFields carried;   // u^n with its ghosts
+  FaceFields seen;      // what grains read of a field; only with a smoothing
   TransportScratch transport_scratch;
   FlowAtGrains flow;
   Sheltering sheltering;
@@ -78,6 +80,8 @@ struct Coupler::Parts {
   StepTimes times;
   StepHealth health;
 
+  /// No grain is in the box: eps = 1, and the volume flux is the velocity.
+  bool fluid_alone() const { return stencils.empty(); }
   bool failed() const { return !health.finite || health.lost_grain; }
   bool model_b() const { return scene.terms.model_b(); }
   bool explicit_forces() const { return any_explicit(scene.terms); }
@@ -99,6 +103,8 @@ struct Coupler::Parts {
   void shorten(double& step, double limit, StepLimit by);
   void predict_grains(const State&, double dt);
   void predict_spins(const State&, double dt);
+  bool implicit_viscosity(double dt) const;
+  void move_fluid_alone(State&, double dt);
   void find_impulse(const State&, double dt);
   void react_on_fluid(const State&, double dt);
   void solve_drag(State&, double dt);
@@ -112,6 +118,7 @@ struct Coupler::Parts {
   void transport_momentum(State&, double dt);
   void carry_liquid(State&, double dt);
   void project(State&, double dt);
+  void find_divergence_to_undo(State&, double dt);
   double uniform_gradient(State&, double dt);
   void kick_mixture(State&, double dt, double uniform);
   Vec3 weight(double density) const;

@@ -36,11 +36,13 @@ class Finite {
 
 }   // namespace
 
-/// Makes div(eps u + J) vanish at the new instant: fluid and mobile grains give way to the pressure together.
-void Coupler::Parts::project(State& state, double dt) {
-  Stopwatch watch(times.pressure);
-  if (failed()) return;
+/// div(eps u + J)/T of the new instant. Its flux per T is kept where there are grains; without them it is u/T.
+void Coupler::Parts::find_divergence_to_undo(State& state, double dt) {
   const double per_dt = 1 / dt;
+  if (fluid_alone()) {
+    close_faces(grid, state.fluid.velocity);
+    return divergence(grid, state.fluid.velocity, rhs, per_dt);
+  }
   for (int c = 0; c < 3; ++c) {
     double* const whole = flux.component(c);
     const double *eps = before.face.component(c), *u = state.fluid.velocity.component(c);
@@ -53,9 +55,18 @@ void Coupler::Parts::project(State& state, double dt) {
   }
   close_faces(grid, flux);
   divergence(grid, flux, rhs);
-  const PressureSolve solve =
-      pressure.solve(response.coefficient, rhs, correction, any_mobile(state.grains) ? pressure_tolerance : 0,
-                     least_divergence / (dt * dt));
+}
+
+/// Makes div(eps u + J) vanish at the new instant: fluid and mobile grains give way to the pressure together.
+void Coupler::Parts::project(State& state, double dt) {
+  Stopwatch watch(times.pressure);
+  if (failed()) return;
+  find_divergence_to_undo(state, dt);
+  const double relative = any_mobile(state.grains) ? pressure_tolerance : 0, absolute = least_divergence / (dt * dt);
+  const PressureSolve solve = responds_alone && fluid_alone()
+                                  ? pressure.solve_again(rhs, correction, relative, absolute)
+                                  : pressure.solve(response.coefficient, rhs, correction, relative, absolute);
+  responds_alone = fluid_alone();
   health.pressure_iterations = solve.iterations;
   health.converged &= solve.converged;
   health.divergence = solve.residual;
@@ -74,10 +85,11 @@ void Coupler::Parts::project(State& state, double dt) {
 /// asked for, or none. What has to be added to the kick along z.
 double Coupler::Parts::uniform_gradient(State& state, double dt) {
   if (!grid.periodic(2) || (scene.bed.gravity.z == 0 && scene.drive.kind != FlowRamp::Kind::through_flow)) return 0;
-  const double *f = flux.component(2), *both = response.coefficient.component(2), *dq = correction.data();
-  const double asked = state.search.through_flow / dt, per_h = 1 / grid.h.z;
-  const double net =
-      sum_over_faces(grid, 2, [=](std::size_t n) { return f[n] - both[n] * ((dq[n] - dq[n - 1]) * per_h) - asked; });
+  const double *f = fluid_alone() ? state.fluid.velocity.component(2) : flux.component(2),
+               *both = response.coefficient.component(2), *dq = correction.data();
+  const double asked = state.search.through_flow / dt, per_h = 1 / grid.h.z, per_dt = fluid_alone() ? 1 / dt : 1;
+  const double net = sum_over_faces(
+      grid, 2, [=](std::size_t n) { return per_dt * f[n] - both[n] * ((dq[n] - dq[n - 1]) * per_h) - asked; });
   const double uniform = net / sum_over_faces(grid, 2, [=](std::size_t n) { return both[n]; });
   state.fluid.column_gradient -= uniform;
   return uniform;
@@ -101,7 +113,10 @@ void Coupler::Parts::kick_mixture(State& state, double dt, double uniform) {
       double* __restrict u = state.fluid.velocity.component(c) + row;
       const double *dq = &correction[row], *cf = response.fluid.component(c) + row;
       for (int m = 0; m < length; ++m) k[m] = (dq[m] - dq[m - s]) * per_h + added;
-      for (int m = 0; m < length; ++m) u[m] -= dt * cf[m] * k[m];
+      if (!grains)
+        for (int m = 0; m < length; ++m) u[m] -= dt * k[m];
+      else
+        for (int m = 0; m < length; ++m) u[m] -= dt * cf[m] * k[m];
       courant.add_row(c, u, length);
       finite.add_row(u, length);
       if (!grains) return;

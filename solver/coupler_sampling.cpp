@@ -23,9 +23,10 @@ void Coupler::Parts::place_on_grid(const Grains& grains) {
 /// a_f = -grad q + nu lap u + G, and the volume flux eps u + J of the start of the step.
 void Coupler::Parts::accelerate_faces(State& state) {
   Stopwatch watch(times.transport);
-  FaceFields& u = state.fluid.velocity;
-  fill_velocity_ghosts(grid, u, state.search.lid_speed);
-  carried = u;
+  fill_velocity_ghosts(grid, state.fluid.velocity, state.search.lid_speed);
+  if (fluid_alone()) std::swap(carried, state.fluid.velocity);   // the step writes u* without reading what is there
+  else carried = state.fluid.velocity;
+  const FaceFields& u = carried;
   fill_centre_ghosts(grid, state.fluid.pressure);
   bedload::acceleration(grid, state.fluid.pressure, u, scene.bed.fluid.viscosity, drive(state), acceleration);
   deposit_solid_flux(grid, state.grains, stencils, solid_flux, smoothing);
@@ -33,9 +34,9 @@ void Coupler::Parts::accelerate_faces(State& state) {
   for (int c = 0; c < 3; ++c) {
     double* const f = flux.component(c);
     const double *eps = before.face.component(c), *v = u.component(c);
-    for_each_face_row(grid, c, [=, &courant](std::size_t row, int length) {
+    for_each_face_row(grid, c, [=, &courant, alone = fluid_alone()](std::size_t row, int length) {
       double* __restrict out = f + row;
-      for (int k = 0; k < length; ++k) out[k] = eps[row + k] * v[row + k];
+      for (int k = 0; k < length && !alone; ++k) out[k] = eps[row + k] * v[row + k];
       courant.add_row(c, v + row, length);
     });
     for_each_face_within(grid, c, solid_flux.reach, [&, j = solid_flux.component(c)](std::size_t n) { f[n] += j[n]; });
@@ -47,8 +48,9 @@ void Coupler::Parts::accelerate_faces(State& state) {
     turbulence->add_force(u, 1, acceleration);
   }
   clear_walls(grid, acceleration);
-  fill_face_ghosts(grid, flux);
-  health.divergence_left = largest_divergence(grid, flux);   // per time; choose_step makes it per step
+  if (!fluid_alone()) fill_face_ghosts(grid, flux);
+  health.divergence_left =
+      largest_divergence(grid, fluid_alone() ? u : flux);   // per time; choose_step makes it per step
   book_wall_shear(u);
   const double rho = scene.bed.fluid.density;
   const Vec3 box = grid.length();
@@ -80,7 +82,7 @@ Vec3 Coupler::Parts::turning_at(std::size_t p) const {
 
 void Coupler::Parts::sample_at_grains(State& state) {
   Stopwatch watch(times.sample);
-  sample_flow(grid, state.grains, stencils, state.fluid.velocity, on_grains(acceleration), before.centre, law,
+  sample_flow(grid, state.grains, stencils, carried, on_grains(acceleration), before.centre, law,
               scene.bed.fluid.viscosity, scene.terms, flow, smoothing);
   health.void_clamps = flow.void_clamps;
   health.face_clamps = before.overfilled.size();

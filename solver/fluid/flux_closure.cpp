@@ -7,11 +7,15 @@
 namespace bedload {
 namespace {
 
-/// S = d(eps)/dt + mean of div F over the volume, on a row of faces whose lower cells are s before their upper ones.
+/// S = d(eps)/dt + mean of div F over the volume, on a row of faces whose lower cells are s before their upper ones; the void
+/// fractions are nullptr where they do not change.
 void find_sources(std::ptrdiff_t s, const double* __restrict divergence, const double* __restrict before,
                   const double* __restrict after, double per_dt, int length, double* __restrict source) noexcept {
-  for (int k = 0; k < length; ++k)
-    source[k] = (after[k] - before[k]) * per_dt + 0.5 * (divergence[k - s] + divergence[k]);
+  if (!before)
+    for (int k = 0; k < length; ++k) source[k] = 0 + 0.5 * (divergence[k - s] + divergence[k]);
+  else
+    for (int k = 0; k < length; ++k)
+      source[k] = (after[k] - before[k]) * per_dt + 0.5 * (divergence[k - s] + divergence[k]);
 }
 
 /// `lanes` lines side by side: position i of lane l is at first + i step + l lane_step.
@@ -61,8 +65,8 @@ void close_flux(const StaggeredGrid& g, int c, int plane, const Field<Centre>& d
   const std::size_t first = g.index(0, 0, 0) + plane * g.stride(c == 0 ? 1 : 0);
   for (int r = 0; r < rows; ++r) {
     const std::size_t row = first + r * next_row;
-    find_sources(g.stride(c), divergence.data() + row, void_before + row, void_after + row, 1 / dt, length,
-                 correction + row);
+    find_sources(g.stride(c), divergence.data() + row, void_before ? void_before + row : nullptr,
+                 void_after ? void_after + row : nullptr, 1 / dt, length, correction + row);
   }
   const std::size_t lanes = std::max(g.cells[1], g.cells[2]);
   sums.resize(2 * lanes);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "solver/fluid/boundaries.hpp"
 #include "solver/fluid/flux_closure.hpp"
 #include "solver/fluid/operators.hpp"
 #include "solver/fluid/rows.hpp"
@@ -50,17 +49,18 @@ struct Sides {
   const double *x_high, *y_low, *y_high, *z;
 };
 
-/// u = [eps u - dt sum over sides of (out - in)/h]/eps' on a row of faces.
+/// u = [eps u - dt sum over sides of (out - in)/h]/eps' on a row of faces; without `porous` eps is 1.
+template <bool porous>
 void advance_row(const Sides& side, Vec3 dt_per_h, const double* __restrict before, const double* __restrict after,
                  int length, double* __restrict u) noexcept {
   double* __restrict x_low = side.x_low;
   const double* __restrict x_high = side.x_high;
   for (int k = 0; k < length; ++k) {
-    double momentum = before[k] * u[k];
+    double momentum = porous ? before[k] * u[k] : u[k];
     momentum -= dt_per_h.x * (x_high[k] - x_low[k]);
     momentum -= dt_per_h.y * (side.y_high[k] - side.y_low[k]);
     momentum -= dt_per_h.z * (side.z[k + 1] - side.z[k]);
-    u[k] = momentum / after[k];
+    u[k] = porous ? momentum / after[k] : momentum;
     x_low[k] = x_high[k];
   }
 }
@@ -89,25 +89,27 @@ void carry(const StaggeredGrid& g, int c, const FaceFields& flux, const double* 
       find(0, row + g.stride(0), length, x_high);
       find(1, row + g.stride(1), length, y_high);
       find(2, row, length + 1, z);
-      advance_row({x_low + j * width, x_high, y_low, y_high, z}, {dt / g.h.x, dt / g.h.y, dt / g.h.z}, before + row,
-                  after + row, length, velocity + row);
+      const Sides side{x_low + j * width, x_high, y_low, y_high, z};
+      const Vec3 dt_per_h{dt / g.h.x, dt / g.h.y, dt / g.h.z};
+      if (before) advance_row<true>(side, dt_per_h, before + row, after + row, length, velocity + row);
+      else advance_row<false>(side, dt_per_h, nullptr, nullptr, length, velocity + row);
       std::swap(y_low, y_high);
     }
   }
 }
 
-/// div F with the ghosts that close_flux() reads.
+/// div F with the ghosts that close_flux() reads: one layer, zero beyond walls.
 void find_divergence(const StaggeredGrid& g, const FaceFields& flux, Field<Centre>& out) {
   divergence(g, flux, out);
-  fill_centre_ghosts(g, out);
   for (int c = 0; c < 3; ++c) {
-    if (g.periodic(c)) continue;
     const int a = c == 0 ? 1 : 0, b = c == 2 ? 1 : 2;
-    double* low = out.data() + g.index(0, 0, 0) - g.stride(c);
+    const std::ptrdiff_t beyond = g.cells[c] * g.stride(c);
+    const bool periodic = g.periodic(c);
     for (int m = 0; m < g.cells[a]; ++m)
       for (int n = 0; n < g.cells[b]; ++n) {
-        double* outside = low + m * g.stride(a) + n * g.stride(b);
-        outside[0] = outside[(g.cells[c] + 1) * g.stride(c)] = 0;
+        double* const first = out.data() + g.index(0, 0, 0) + m * g.stride(a) + n * g.stride(b);
+        first[-g.stride(c)] = periodic ? first[beyond - g.stride(c)] : 0;
+        first[beyond] = periodic ? first[0] : 0;
       }
   }
 }
@@ -118,19 +120,32 @@ void prepare(const StaggeredGrid& g, TransportScratch& scratch) {
   scratch.sides.assign((g.cells[2] + 1) * (g.cells[1] + 4), 0.0);
 }
 
-}   // namespace
-
-void transport(const StaggeredGrid& g, const FaceFields& flux, const FaceFields& void_before,
-               const FaceFields& void_after, double dt, const FaceFields& carried, FaceFields& velocity,
+/// Without void fractions, eps = 1.
+void transport(const StaggeredGrid& g, const FaceFields& flux, const FaceFields* void_before,
+               const FaceFields* void_after, double dt, const FaceFields& carried, FaceFields& velocity,
                TransportScratch& scratch) {
   prepare(g, scratch);
   find_divergence(g, flux, scratch.divergence);
   double* correction = scratch.correction.data();
   for (int c = 0; c < 3; ++c) {
-    const double *before = void_before.component(c), *after = void_after.component(c);
+    const double *before = void_before ? void_before->component(c) : nullptr,
+                 *after = void_after ? void_after->component(c) : nullptr;
     carry(g, c, flux, correction, before, after, carried.component(c), dt, velocity.component(c), scratch.sides,
           [&](int plane) { close_flux(g, c, plane, scratch.divergence, before, after, dt, correction, scratch.sums); });
   }
+}
+
+}   // namespace
+
+void transport(const StaggeredGrid& g, const FaceFields& flux, const FaceFields& void_before,
+               const FaceFields& void_after, double dt, const FaceFields& carried, FaceFields& velocity,
+               TransportScratch& scratch) {
+  transport(g, flux, &void_before, &void_after, dt, carried, velocity, scratch);
+}
+
+void transport(const StaggeredGrid& g, const FaceFields& flux, double dt, const FaceFields& carried,
+               FaceFields& velocity, TransportScratch& scratch) {
+  transport(g, flux, nullptr, nullptr, dt, carried, velocity, scratch);
 }
 
 }   // namespace bedload

@@ -21,5 +21,8 @@ struct TransportScratch {
 void transport(const StaggeredGrid&, const FaceFields& flux, const FaceFields& void_before,
                const FaceFields& void_after, double dt, const FaceFields& carried, FaceFields& velocity,
                TransportScratch&);
+/// The same where fluid alone fills the box: eps = 1.
+void transport(const StaggeredGrid&, const FaceFields& flux, double dt, const FaceFields& carried, FaceFields& velocity,
+               TransportScratch&);
 
 }   // namespace bedload

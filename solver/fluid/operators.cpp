@@ -20,7 +20,7 @@ void gradient(const StaggeredGrid& g, const Field<Centre>& q, FaceFields& out) {
   clear_walls(g, out);
 }
 
-void divergence(const StaggeredGrid& g, const FaceFields& flux, Field<Centre>& out) {
+void divergence(const StaggeredGrid& g, const FaceFields& flux, Field<Centre>& out, double factor) {
   const std::ptrdiff_t sx = g.stride(0), sy = g.stride(1);
   const double per_x = 1 / g.h.x, per_y = 1 / g.h.y, per_z = 1 / g.h.z;
   for_each_cell_row(g, [&](std::size_t row, int length) {
@@ -29,7 +29,8 @@ void divergence(const StaggeredGrid& g, const FaceFields& flux, Field<Centre>& o
     const double* __restrict fz = flux.z.data() + row;
     double* __restrict div = out.data() + row;
     for (int k = 0; k < length; ++k)
-      div[k] = (fx[k + sx] - fx[k]) * per_x + (fy[k + sy] - fy[k]) * per_y + (fz[k + 1] - fz[k]) * per_z;
+      div[k] = (fx[k + sx] * factor - fx[k] * factor) * per_x + (fy[k + sy] * factor - fy[k] * factor) * per_y +
+               (fz[k + 1] * factor - fz[k] * factor) * per_z;
   });
 }
 

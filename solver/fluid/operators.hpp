@@ -8,8 +8,8 @@ namespace bedload {
 /// (grad q) on every unknown face; zero on walls. Reads one ghost layer of q.
 void gradient(const StaggeredGrid&, const Field<Centre>& q, FaceFields& out);
 
-/// div F on every cell; faces on walls count with the value they hold (zero for a flux). Reads face n.
-void divergence(const StaggeredGrid&, const FaceFields& flux, Field<Centre>& out);
+/// div(factor F) on every cell; faces on walls count with the value they hold (zero for a flux). Reads face n.
+void divergence(const StaggeredGrid&, const FaceFields& flux, Field<Centre>& out, double factor = 1);
 
 /// Largest |div F| of all cells.
 double largest_divergence(const StaggeredGrid&, const FaceFields& flux);

@@ -80,9 +80,8 @@ struct PressureSolver::Levels {
     return sum_over_cells(grid, [&](std::size_t n) { return f[n]; }) / grid.cell_count();
   }
 
-  /// The matrix of the conjugate gradients and its hierarchy, anew only where the coefficient is another one.
-  void set_matrix(const FaceFields& coefficient) {
-    hierarchy_stands = !set_couplings(grid, coefficient, couplings) && hierarchy_stands;
+  /// The matrix of the conjugate gradients and its hierarchy.
+  void set_matrix() {
     if (hierarchy_stands) return;
     const double largest = largest_coupling(grid, couplings);
     matrix_scale = largest > 0 ? 1 / largest : 1;
@@ -178,8 +177,8 @@ struct PressureSolver::Levels {
   const SplitGrid at;
   FaceFields couplings;
   double matrix_scale = 1;
-  bool hierarchy_stands = false;
-  bool from_zero = true;   // p is zero as yet, whatever stands there
+  bool hierarchy_stands = false;   // for the couplings, with nothing left behind that is not finite
+  bool from_zero = true;           // p is zero as yet, whatever stands there
   double mean_p = 0;
   std::vector<float> direction, image;   // d and A d, in the layout of the multigrid
   PlaneSums sums;
@@ -192,9 +191,15 @@ PressureSolver::~PressureSolver() = default;
 
 PressureSolve PressureSolver::solve(const FaceFields& coefficient, const Field<Centre>& rhs, Field<Centre>& p,
                                     double relative, double absolute) {
+  if (set_couplings(levels_->grid, coefficient, levels_->couplings)) levels_->hierarchy_stands = false;
+  return solve_again(rhs, p, relative, absolute);
+}
+
+PressureSolve PressureSolver::solve_again(const Field<Centre>& rhs, Field<Centre>& p, double relative,
+                                          double absolute) {
   Levels& s = *levels_;
   const StaggeredGrid& g = s.grid;
-  s.set_matrix(coefficient);
+  s.set_matrix();
   const double mean_rhs = s.mean(rhs);
   const double rhs_norm =
       std::sqrt(sum_over_cells(g, [&](std::size_t n) { return (rhs[n] - mean_rhs) * (rhs[n] - mean_rhs); }));

@@ -24,6 +24,8 @@ class PressureSolver {
   /// when the residual 2-norm is below max(relative |rhs|, absolute * sqrt(cells)).
   PressureSolve solve(const FaceFields& coefficient, const Field<Centre>& rhs, Field<Centre>& p, double relative,
                       double absolute);
+  /// The same with the coefficient of the last solve.
+  PressureSolve solve_again(const Field<Centre>& rhs, Field<Centre>& p, double relative, double absolute);
 
  private:
   struct Levels;

@@ -79,6 +79,22 @@ TEST(FluidStep, ShortensTheDemStepBelowOne) {
   EXPECT_NEAR(health.dt, 0.2 * grain.scene.bed.dem_step, 1e-9 * grain.scene.bed.dem_step);
 }
 
+TEST(FluidStep, OfFluidAloneKnowsNothingOfGrainsThatWereThereBefore) {
+  LoneGrain with(1e-6, channel);
+  with.state.search.lid_speed = 0.05;
+  Coupler used(with.scene);
+  for (int n = 0; n < 3; ++n) used.step(with.state, with.scene.steps.fluid_interval);
+  State alone = with.state;
+  alone.grains = {}, alone.contacts = {};
+  State fresh = alone;
+  Coupler never_used(with.scene);
+  for (int n = 0; n < 3; ++n) {
+    used.step(alone, with.scene.steps.fluid_interval), never_used.step(fresh, with.scene.steps.fluid_interval);
+    EXPECT_EQ(state_digest(alone), state_digest(fresh)) << n;
+    EXPECT_EQ(used.drag_on_grains().size(), 0u);
+  }
+}
+
 TEST(FluidStep, FailsWhenAGrainsCentrePassesAWall) {
   LoneGrain grain(1e-9, channel);
   grain.state.grains.position[0].z = 0.02 * d;
