@@ -6,6 +6,7 @@
 
 #include "solver/coupling/added_mass.hpp"
 #include "solver/fluid/face_loops.hpp"
+#include "solver/fluid/operators.hpp"
 
 namespace bedload {
 namespace {
@@ -81,6 +82,10 @@ bool Coupler::Parts::implicit_viscosity(double dt) const {
 
 /// u* = u^n + T a: without grains and with explicit viscosity no face knows of another.
 void Coupler::Parts::move_fluid_alone(State& state, double dt) {
+  if (!turbulence)
+    return accelerated(grid, state.fluid.pressure, carried, scene.bed.fluid.viscosity, drive(state), dt,
+                       state.fluid.velocity);
+  find_acceleration(state);
   for (int c = 0; c < 3; ++c)
     for_each_face_row(grid, c, [&](std::size_t row, int length) {
       double* __restrict u = state.fluid.velocity.component(c) + row;
@@ -157,7 +162,10 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
     move_fluid_alone(state, dt);
     return book_drive_of_fluid(state);
   }
-  if (fluid_alone()) state.fluid.velocity = carried;
+  if (fluid_alone()) {
+    find_acceleration(state);
+    state.fluid.velocity = carried;
+  }
   find_impulse(state, dt);
   if (scene.terms.added_mass) find_carried_mass(state.grains);
   DragProblem problem{.stencils = stencils,

@@ -94,6 +94,7 @@ struct Coupler::Parts {
 
   void place_on_grid(const Grains&);
   void accelerate_faces(State&);
+  void find_acceleration(const State&);
   void book_wall_shear(const FaceFields& velocity);
   const FaceFields& on_grains(const FaceFields& acceleration);
   Vec3 turning_at(std::size_t grain) const;

@@ -71,14 +71,7 @@ void Coupler::Parts::project(State& state, double dt) {
   health.converged &= solve.converged;
   health.divergence = solve.residual;
   kick_mixture(state, dt, uniform_gradient(state, dt));
-  Finite finite;
-  for_each_cell_row(grid, [&](std::size_t row, int length) {
-    double* __restrict q = &state.fluid.pressure[row];
-    const double* __restrict dq = &correction[row];
-    for (int k = 0; k < length; ++k) q[k] += dq[k];
-    finite.add_row(q, length);
-  });
-  health.finite &= bool(finite) && all_finite(state.grains);
+  health.finite &= all_finite(state.grains);
 }
 
 /// In a box without bottom or top, weight is borne by a uniform gradient: the one that lets just the volume pass that is
@@ -95,7 +88,7 @@ double Coupler::Parts::uniform_gradient(State& state, double dt) {
   return uniform;
 }
 
-/// u_f -= T cf (grad dq)_f; v_p -= T sum w cp grad dq for every grain that is not fixed. `uniform` comes on top of the
+/// q += dq; u_f -= T cf (grad dq)_f; v_p -= T sum w cp grad dq for every grain that is not fixed. `uniform` comes on top of the
 /// gradient along z.
 void Coupler::Parts::kick_mixture(State& state, double dt, double uniform) {
   const double rho = scene.bed.fluid.density;
@@ -105,10 +98,10 @@ void Coupler::Parts::kick_mixture(State& state, double dt, double uniform) {
   Courant courant;
   Finite finite;
   std::vector<double> one_row(grid.cells[2]);   // of the kick; the whole of it only for grains that read it
-  for (int c = 0; c < 3; ++c) {
+  const auto kick_faces = [&](int i, int c) {
     const std::ptrdiff_t s = grid.stride(c);
     const double per_h = 1 / grid.h[c], added = c == 2 ? uniform : 0;
-    for_each_face_row(grid, c, [&](std::size_t row, int length) {
+    for_each_face_row_of_plane(grid, c, i, [&](std::size_t row, int length) {
       double* __restrict k = mobile ? kick.component(c) + row : one_row.data();
       double* __restrict u = state.fluid.velocity.component(c) + row;
       const double *dq = &correction[row], *cf = response.fluid.component(c) + row;
@@ -128,6 +121,15 @@ void Coupler::Parts::kick_mixture(State& state, double dt, double uniform) {
       if (!mobile) return;
       const double* cp = response.grains.component(c) + row;
       for (int m = 0; m < length; ++m) k[m] *= cp[m];
+    });
+  };
+  for (int i = 0; i < grid.cells[0]; ++i) {   // all that reads a plane of dq
+    for (int c = 0; c < 3; ++c) kick_faces(i, c);
+    for_each_cell_row_of_plane(grid, i, [&](std::size_t row, int length) {
+      double* __restrict q = &state.fluid.pressure[row];
+      const double* __restrict dq = &correction[row];
+      for (int k = 0; k < length; ++k) q[k] += dq[k];
+      finite.add_row(q, length);
     });
   }
   health.cfl_after = dt * courant.rate(grid.h);

@@ -20,7 +20,14 @@ void Coupler::Parts::place_on_grid(const Grains& grains) {
   diameters = grains.diameter;
 }
 
-/// a_f = -grad q + nu lap u + G, and the volume flux eps u + J of the start of the step.
+/// a_f = -grad q + nu lap u + G, and what turbulence adds.
+void Coupler::Parts::find_acceleration(const State& state) {
+  bedload::acceleration(grid, state.fluid.pressure, carried, scene.bed.fluid.viscosity, drive(state), acceleration);
+  if (turbulence) turbulence->add_force(carried, 1, acceleration);
+  clear_walls(grid, acceleration);
+}
+
+/// The acceleration of the faces and the volume flux eps u + J of the start of the step; fluid alone is accelerated later.
 void Coupler::Parts::accelerate_faces(State& state) {
   Stopwatch watch(times.transport);
   fill_velocity_ghosts(grid, state.fluid.velocity, state.search.lid_speed);
@@ -28,16 +35,16 @@ void Coupler::Parts::accelerate_faces(State& state) {
   else carried = state.fluid.velocity;
   const FaceFields& u = carried;
   fill_centre_ghosts(grid, state.fluid.pressure);
-  bedload::acceleration(grid, state.fluid.pressure, u, scene.bed.fluid.viscosity, drive(state), acceleration);
   deposit_solid_flux(grid, state.grains, stencils, solid_flux, smoothing);
   Courant courant;
   for (int c = 0; c < 3; ++c) {
     double* const f = flux.component(c);
     const double *eps = before.face.component(c), *v = u.component(c);
     for_each_face_row(grid, c, [=, &courant, alone = fluid_alone()](std::size_t row, int length) {
-      double* __restrict out = f + row;
-      for (int k = 0; k < length && !alone; ++k) out[k] = eps[row + k] * v[row + k];
       courant.add_row(c, v + row, length);
+      if (alone) return;
+      double* __restrict out = f + row;
+      for (int k = 0; k < length; ++k) out[k] = eps[row + k] * v[row + k];
     });
     for_each_face_within(grid, c, solid_flux.reach, [&, j = solid_flux.component(c)](std::size_t n) { f[n] += j[n]; });
   }
@@ -45,10 +52,8 @@ void Coupler::Parts::accelerate_faces(State& state) {
   if (turbulence) {   // a bed is as rough as its grains are large
     const double z_b = state.search.bed_height;
     turbulence->find(u, state.search.lid_speed, z_b, z_b > 0 ? scene.bed.grains.diameter : scene.bottom_roughness);
-    turbulence->add_force(u, 1, acceleration);
   }
-  clear_walls(grid, acceleration);
-  if (!fluid_alone()) fill_face_ghosts(grid, flux);
+  if (!fluid_alone()) find_acceleration(state), fill_face_ghosts(grid, flux);
   health.divergence_left =
       largest_divergence(grid, fluid_alone() ? u : flux);   // per time; choose_step makes it per step
   book_wall_shear(u);

@@ -62,26 +62,51 @@ void laplacian(const StaggeredGrid& g, const FaceFields& velocity, FaceFields& o
   clear_walls(g, out);
 }
 
-void acceleration(const StaggeredGrid& g, const Field<Centre>& q, const FaceFields& velocity, double viscosity,
-                  Vec3 drive, FaceFields& out) {
+namespace {
+
+/// take(c, row, length, a) for each row of unknown faces normal to c, where a(k) is the acceleration of face row + k. All components of a plane follow each other:
+/// they read the same pressure.
+template <class Take>
+void for_each_acceleration(const StaggeredGrid& g, const Field<Centre>& q, const FaceFields& velocity, double viscosity,
+                           Vec3 drive, Take&& take) {
   const std::ptrdiff_t sx = g.stride(0), sy = g.stride(1);
   const double ax = 1 / (g.h.x * g.h.x), ay = 1 / (g.h.y * g.h.y), az = 1 / (g.h.z * g.h.z);
-  for (int c = 0; c < 3; ++c) {
+  const auto of_component = [&](int i, int c) {
     const std::ptrdiff_t s = g.stride(c);
     const double per_h = 1 / g.h[c], along = drive[c];
-    for_each_face_row(g, c, [&](std::size_t row, int length) {
-      const double* __restrict u = velocity.component(c) + row;
-      const double* __restrict value = q.data() + row;
-      double* __restrict a = out.component(c) + row;
-      for (int k = 0; k < length; ++k) {
+    for_each_face_row_of_plane(g, c, i, [&](std::size_t row, int length) {
+      const double* u = velocity.component(c) + row;
+      const double* value = q.data() + row;
+      take(c, row, length, [=](int k) {
         const double lap = ((u[k + sx] - u[k]) - (u[k] - u[k - sx])) * ax +
                            ((u[k + sy] - u[k]) - (u[k] - u[k - sy])) * ay +
                            ((u[k + 1] - u[k]) - (u[k] - u[k - 1])) * az;
-        a[k] = -((value[k] - value[k - s]) * per_h) + viscosity * lap + along;
-      }
+        return -((value[k] - value[k - s]) * per_h) + viscosity * lap + along;
+      });
     });
-  }
+  };
+  for (int i = 0; i < g.cells[0]; ++i)
+    for (int c = 0; c < 3; ++c) of_component(i, c);
+}
+
+}   // namespace
+
+void acceleration(const StaggeredGrid& g, const Field<Centre>& q, const FaceFields& velocity, double viscosity,
+                  Vec3 drive, FaceFields& out) {
+  for_each_acceleration(g, q, velocity, viscosity, drive, [&](int c, std::size_t row, int length, auto a) {
+    double* __restrict to = out.component(c) + row;
+    for (int k = 0; k < length; ++k) to[k] = a(k);
+  });
   clear_walls(g, out);
+}
+
+void accelerated(const StaggeredGrid& g, const Field<Centre>& q, const FaceFields& velocity, double viscosity,
+                 Vec3 drive, double dt, FaceFields& out) {
+  for_each_acceleration(g, q, velocity, viscosity, drive, [&](int c, std::size_t row, int length, auto a) {
+    double* __restrict to = out.component(c) + row;
+    const double* u = velocity.component(c) + row;
+    for (int k = 0; k < length; ++k) to[k] = u[k] + dt * a(k);
+  });
 }
 
 namespace {

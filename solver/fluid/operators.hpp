@@ -17,6 +17,9 @@ double largest_divergence(const StaggeredGrid&, const FaceFields& flux);
 /// -grad q + viscosity lap u + drive on every unknown face; zero on walls. Reads one filled ghost layer of both.
 void acceleration(const StaggeredGrid&, const Field<Centre>& q, const FaceFields& velocity, double viscosity,
                   Vec3 drive, FaceFields& out);
+/// The velocity after `dt` of that acceleration, on every unknown face; `out` is another field.
+void accelerated(const StaggeredGrid&, const Field<Centre>& q, const FaceFields& velocity, double viscosity, Vec3 drive,
+                 double dt, FaceFields& out);
 
 /// Laplacian of each component on every unknown face; zero on walls. Reads one filled ghost layer.
 void laplacian(const StaggeredGrid&, const FaceFields& velocity, FaceFields& out);

@@ -7,19 +7,30 @@
 
 namespace bedload {
 
-/// Visits every row of cells as body(first index, length), plane by plane in x.
+/// Visits the rows of cells of x-plane i as body(first index, length).
+template <class Body>
+void for_each_cell_row_of_plane(const StaggeredGrid& g, int i, Body&& body) {
+  for (int j = 0; j < g.cells[1]; ++j) body(g.index(i, j, 0), g.cells[2]);
+}
+
+/// Visits every row of cells, plane by plane in x.
 template <class Body>
 void for_each_cell_row(const StaggeredGrid& g, Body&& body) {
-  for (int i = 0; i < g.cells[0]; ++i)
-    for (int j = 0; j < g.cells[1]; ++j) body(g.index(i, j, 0), g.cells[2]);
+  for (int i = 0; i < g.cells[0]; ++i) for_each_cell_row_of_plane(g, i, body);
+}
+
+/// Visits the rows of unknown faces normal to c in x-plane i.
+template <class Body>
+void for_each_face_row_of_plane(const StaggeredGrid& g, int c, int i, Body&& body) {
+  if (c == 0 && i < g.first_face(0)) return;
+  const int k = c == 2 ? g.first_face(2) : 0;
+  for (int j = c == 1 ? g.first_face(1) : 0; j < g.cells[1]; ++j) body(g.index(i, j, k), g.cells[2] - k);
 }
 
 /// Visits every row of unknown faces normal to c.
 template <class Body>
 void for_each_face_row(const StaggeredGrid& g, int c, Body&& body) {
-  const int k = c == 2 ? g.first_face(2) : 0;
-  for (int i = c == 0 ? g.first_face(0) : 0; i < g.cells[0]; ++i)
-    for (int j = c == 1 ? g.first_face(1) : 0; j < g.cells[1]; ++j) body(g.index(i, j, k), g.cells[2] - k);
+  for (int i = 0; i < g.cells[0]; ++i) for_each_face_row_of_plane(g, c, i, body);
 }
 
 /// Visits every row of edges along t as body(first index, length, i, j), the planes 0 and n of the other directions included:
