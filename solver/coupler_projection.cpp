@@ -105,11 +105,13 @@ void Coupler::Parts::kick_mixture(State& state, double dt, double uniform) {
       double* __restrict k = mobile ? kick.component(c) + row : one_row.data();
       double* __restrict u = state.fluid.velocity.component(c) + row;
       const double *dq = &correction[row], *cf = response.fluid.component(c) + row;
-      for (int m = 0; m < length; ++m) k[m] = (dq[m] - dq[m - s]) * per_h + added;
-      if (!grains)
-        for (int m = 0; m < length; ++m) u[m] -= dt * k[m];
-      else
+      const auto slope = [=](int m) { return (dq[m] - dq[m - s]) * per_h + added; };
+      if (!grains) {
+        for (int m = 0; m < length; ++m) u[m] -= dt * slope(m);
+      } else {
+        for (int m = 0; m < length; ++m) k[m] = slope(m);
         for (int m = 0; m < length; ++m) u[m] -= dt * cf[m] * k[m];
+      }
       courant.add_row(c, u, length);
       finite.add_row(u, length);
       if (!grains) return;

@@ -46,10 +46,13 @@ class LaneSum {
  public:
   template <class Term>
   void add_row(int length, Term&& term) noexcept {
+    double lanes[8];   // not the members: what may be elsewhere than in registers does not vectorise
+    std::copy_n(lanes_, 8, lanes);
     int k = 0;
     for (; k + 8 <= length; k += 8)
-      for (int lane = 0; lane < 8; ++lane) lanes_[lane] += term(k + lane);
-    for (int lane = 0; k < length; ++k, ++lane) lanes_[lane] += term(k);
+      for (int lane = 0; lane < 8; ++lane) lanes[lane] += term(k + lane);
+    for (int lane = 0; k < length; ++k, ++lane) lanes[lane] += term(k);
+    std::copy_n(lanes, 8, lanes_);
   }
   double value() const noexcept {
     return ((lanes_[0] + lanes_[4]) + (lanes_[1] + lanes_[5])) + ((lanes_[2] + lanes_[6]) + (lanes_[3] + lanes_[7]));
@@ -64,20 +67,27 @@ class LaneMax {
  public:
   template <class Term>
   void add_row(int length, Term&& term) noexcept {
-    double lanes[8];   // not the members: what may be elsewhere than in registers does not vectorise
-    std::copy_n(lanes_, 8, lanes);
+    FourDoubles low = low_, high = high_;   // asked for by name: compilers take such choices one by one
+    double found[8];
     int k = 0;
-    for (; k + 8 <= length; k += 8)
-      for (int lane = 0; lane < 8; ++lane) lanes[lane] = larger(term(k + lane), lanes[lane]);
-    for (int lane = 0; k < length; ++k, ++lane) lanes[lane] = larger(term(k), lanes[lane]);
-    std::copy_n(lanes, 8, lanes_);
+    for (; k + 8 <= length; k += 8) {
+      for (int lane = 0; lane < 8; ++lane) found[lane] = term(k + lane);
+      low = larger(FourDoubles{found[0], found[1], found[2], found[3]}, low);
+      high = larger(FourDoubles{found[4], found[5], found[6], found[7]}, high);
+    }
+    for (; k < length; ++k) low = larger(FourDoubles{term(k)}, low);
+    low_ = low, high_ = high;
   }
-  double value() const noexcept { return *std::max_element(lanes_, lanes_ + 8); }
+  double value() const noexcept {
+    const FourDoubles four = larger(high_, low_);
+    return std::max(std::max(four[0], four[1]), std::max(four[2], four[3]));
+  }
 
  private:
-  static double larger(double value, double than) noexcept { return value > than ? value : than; }
+  typedef double FourDoubles __attribute__((vector_size(32)));
+  static FourDoubles larger(FourDoubles value, FourDoubles than) noexcept { return value > than ? value : than; }
 
-  double lanes_[8] = {};
+  FourDoubles low_{}, high_{};
 };
 
 /// Partial sums of x-planes, found in any order, added in plane order.
