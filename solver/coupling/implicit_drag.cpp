@@ -132,7 +132,7 @@ double ImplicitDrag::apply(const StaggeredGrid& g, const DragProblem& problem, c
   woven_too_.settle(image_);
   problem.smoothing.spread(image_);
   image_.reach = coupled_;
-  if (problem.implicit_viscosity > 0 || problem.spin) fill_velocity_ghosts(g, direction_, 0);
+  if (problem.implicit_viscosity > 0 || problem.spin) fill_velocity_ghosts(g, direction_, 0, GhostLayers::inner);
   if (problem.spin) problem.spin->add_image(direction_, image_);
   if (problem.implicit_viscosity > 0) {
     laplacian(g, direction_, laplacian_);
@@ -184,7 +184,7 @@ int ImplicitDrag::solve(const StaggeredGrid& g, const DragProblem& problem, cons
     for_each_face_within(g, c, coupled_,
                          [u = velocity.component(c), x = change_.component(c), r = residual_.component(c),
                           eps = void_fraction.component(c)](std::size_t n) { u[n] += x[n] + r[n] / eps[n]; });
-  if (problem.implicit_viscosity > 0 || problem.spin) fill_velocity_ghosts(g, change_, 0);
+  if (problem.implicit_viscosity > 0 || problem.spin) fill_velocity_ghosts(g, change_, 0, GhostLayers::inner);
   return iterations;
 }
 

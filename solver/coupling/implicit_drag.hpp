@@ -39,7 +39,7 @@ class ImplicitDrag {
   int solve(const StaggeredGrid&, const DragProblem&, const FaceFields& void_fraction, const FaceFields& impulse,
             FaceFields& velocity, std::span<Vec3> flow_velocity);
 
-  /// u* - u^n of the last solve; its ghosts are filled where viscosity was implicit or there were couples.
+  /// u* - u^n of the last solve; the inner layer of its ghosts is filled where viscosity was implicit or there were couples.
   const FaceFields& change() const { return change_; }
 
  private:

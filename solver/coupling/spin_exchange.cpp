@@ -88,7 +88,7 @@ void SpinExchange::prepare(const Stencils& stencils, std::span<const Vec3> stren
   for (Deposited* f : {&strength_, &target_}) {
     smoothing.spread_on_edges(*f);
     weigh_walls(*f);
-    fill_face_ghosts(grid_, *f);
+    fill_face_ghosts(grid_, *f, GhostLayers::inner);
   }
   reach_ = planes_reached();
 }

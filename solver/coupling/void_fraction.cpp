@@ -133,7 +133,7 @@ void deposit_solid_flux(const StaggeredGrid& grid, const Grains& grains, const S
 void deposit_swept_flux(const StaggeredGrid& grid, const Grains& grains, std::span<const Vec3> before,
                         std::span<const Vec3> moved, const Reach& reach, double dt, SolidFlux& flux,
                         const KernelSmoothing& smoothing) {
-  flux.woven.clear(reach);
+  flux.woven.clear(across_seams(grid, reach));
   const double per_step = 1 / (grid.cell_volume() * dt);
   const Strides stride(grid);
   const CellFinder cells(grid);

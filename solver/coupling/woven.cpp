@@ -38,9 +38,15 @@ Reach widened(const StaggeredGrid& g, Reach reach, int planes) {
     const int n = g.cells[c];
     reach.first[c] = std::max(reach.first[c] - planes, -ghosts);
     reach.last[c] = std::min(reach.last[c] + planes, n + ghosts);
-    if (g.periodic(c) && (reach.first[c] < 0 || reach.last[c] > n))
-      reach.first[c] = -ghosts, reach.last[c] = n + ghosts;
+    if (const int beyond = std::max(-reach.first[c], reach.last[c] - n); g.periodic(c) && beyond > 0)
+      reach.first[c] = -beyond, reach.last[c] = n + beyond;
   }
+  return reach;
+}
+
+Reach across_seams(const StaggeredGrid& g, Reach reach) {
+  for (int c = 0; c < 3; ++c)
+    if (g.periodic(c) && reach.first[c] < 0) reach.first[c] = -ghosts, reach.last[c] = g.cells[c] + ghosts;
   return reach;
 }
 

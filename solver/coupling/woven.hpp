@@ -16,8 +16,11 @@ namespace bedload {
 Reach home_of(const StaggeredGrid&, const Reach&);
 /// The whole grid, without ghosts, faces on walls included.
 Reach whole(const StaggeredGrid&);
-/// The reach widened by `planes` cells in every direction; whole where it then meets a seam.
+/// The reach widened by `planes` cells in every direction; whole where it then meets a seam, with as
+/// many planes of ghosts on either side as it goes beyond.
 Reach widened(const StaggeredGrid&, Reach, int planes);
+/// With all ghosts beyond the seams that a reach meets: for what grains write on their way across one.
+Reach across_seams(const StaggeredGrid&, Reach);
 /// What holds both.
 Reach united(const Reach&, const Reach&);
 

@@ -34,20 +34,21 @@ void fill_layers(const StaggeredGrid& g, double* field, int direction, const Ima
     }
 }
 
-void fill_periodic(const StaggeredGrid& g, double* field, int c) noexcept {
+void fill_periodic(const StaggeredGrid& g, double* field, int c, GhostLayers layers) noexcept {
   const int n = g.cells[c];
-  const Image images[] = {{-1, n - 1, 1, 0}, {n, 0, 1, 0}, {-2, n > 1 ? n - 2 : 0, 1, 0}, {n + 1, n > 1 ? 1 : 0, 1, 0}};
-  fill_layers(g, field, c, images);
+  const Image inner[] = {{-1, n - 1, 1, 0}, {n, 0, 1, 0}};
+  const Image outer[] = {{-2, n > 1 ? n - 2 : 0, 1, 0}, {n + 1, n > 1 ? 1 : 0, 1, 0}};
+  fill_layers(g, field, c, inner);
+  if (layers == GhostLayers::both) fill_layers(g, field, c, outer);
 }
 
 void fill_centred_at_walls(const StaggeredGrid& g, double* field, int c, double low_sign, double high_sign,
-                           double high_offset) noexcept {
+                           double high_offset, GhostLayers layers) noexcept {
   const int n = g.cells[c];
-  const Image images[] = {{-1, 0, low_sign, 0},
-                          {n, n - 1, high_sign, high_offset},
-                          {-2, 1, low_sign, 0},
-                          {n + 1, n - 2, high_sign, high_offset}};
-  fill_layers(g, field, c, images);
+  const Image inner[] = {{-1, 0, low_sign, 0}, {n, n - 1, high_sign, high_offset}};
+  const Image outer[] = {{-2, 1, low_sign, 0}, {n + 1, n - 2, high_sign, high_offset}};
+  fill_layers(g, field, c, inner);
+  if (layers == GhostLayers::both) fill_layers(g, field, c, outer);
 }
 
 void fill_normal_at_walls(const StaggeredGrid& g, double* field, int c) noexcept {
@@ -58,29 +59,29 @@ void fill_normal_at_walls(const StaggeredGrid& g, double* field, int c) noexcept
 
 }   // namespace
 
-void fill_velocity_ghosts(const StaggeredGrid& g, FaceFields& velocity, double lid_speed) {
+void fill_velocity_ghosts(const StaggeredGrid& g, FaceFields& velocity, double lid_speed, GhostLayers layers) {
   for (int component = 0; component < 3; ++component)
     for (int c = 0; c < 3; ++c) {
       double* u = velocity.component(component);
       const bool slips = c == 2 && g.top == Top::free_slip;
       const double top_speed = c == 2 && component == 0 && !slips ? lid_speed : 0;
-      if (g.periodic(c)) fill_periodic(g, u, c);
+      if (g.periodic(c)) fill_periodic(g, u, c, layers);
       else if (component == c) fill_normal_at_walls(g, u, c);
-      else fill_centred_at_walls(g, u, c, -1, slips ? 1 : -1, 2 * top_speed);
+      else fill_centred_at_walls(g, u, c, -1, slips ? 1 : -1, 2 * top_speed, layers);
     }
 }
 
 void fill_centre_ghosts(const StaggeredGrid& g, Field<Centre>& field) {
   for (int c = 0; c < 3; ++c) {
-    if (g.periodic(c)) fill_periodic(g, field.data(), c);
-    else fill_centred_at_walls(g, field.data(), c, 1, 1, 0);
+    if (g.periodic(c)) fill_periodic(g, field.data(), c, GhostLayers::both);
+    else fill_centred_at_walls(g, field.data(), c, 1, 1, 0, GhostLayers::both);
   }
 }
 
-void fill_face_ghosts(const StaggeredGrid& g, FaceFields& field) {
+void fill_face_ghosts(const StaggeredGrid& g, FaceFields& field, GhostLayers layers) {
   for (int component = 0; component < 3; ++component)
     for (int c = 0; c < 3; ++c)
-      if (g.periodic(c)) fill_periodic(g, field.component(component), c);
+      if (g.periodic(c)) fill_periodic(g, field.component(component), c, layers);
 }
 
 void close_faces(const StaggeredGrid& g, FaceFields& field) noexcept {
