@@ -69,38 +69,69 @@ WallTorque wall_torque(const StaggeredGrid& grid, Vec3 position, double diameter
   return factors;
 }
 
+namespace {
+
+/// What a grain's lift is made of.
+struct LiftedGrain {
+  Vec3 slip, vorticity, relative_spin;   // slip: undisturbed
+  Vec3 applied;                          // of a force, to be felt as one
+  Vec3 at_wall;                          // lift vector of the wall's part
+  double free = 1;                       // share of what is no wall's
+};
+
+/// Finds that, after making the drag that of the wall nearby.
+LiftedGrain meet_wall(const Surroundings& around, const Grains& grains, const Terms& terms, std::size_t p,
+                      FlowAtGrains& flow) {
+  const double d = grains.diameter[p];
+  LiftedGrain g{.vorticity = flow.vorticity[p], .applied = without_own_flow(removed_at(flow, p))};
+  g.slip = scaled(g.applied, flow.velocity[p] - grains.velocity[p]);
+  g.relative_spin = grains.spin[p] - 0.5 * g.vorticity;
+  std::optional<WallThere> there;
+  if (terms.wall_forces) there = wall_at(around.grid, grains.position[p], flow.packing.others[p]);
+  if (!there) return g;
+  const WallDrag drag = add_wall_drag(around, *there, d, p, flow);
+  const Vec3 wall = wall_velocity(around, there->wall), grain = grains.velocity[p] - wall;
+  const Vec3 along = drag.undisturbed(flow.velocity[p] - wall, grain);
+  g.applied = drag.applied, g.slip = along - grain, g.free = 1 - there->share;
+  if (terms.shear_lift) {
+    Vec3 normal;
+    normal[there->wall.axis] = there->wall.upper ? -1 : 1;
+    const Vec3 shear = cross(normal, along) / there->wall.distance;
+    g.at_wall =
+        there->share * shear_lift_near_wall(g.slip, g.vorticity, shear, d, around.viscosity, there->wall.distance);
+  }
+  return g;
+}
+
+}   // namespace
+
 void add_explicit_forces(const Surroundings& around, const Grains& grains, const Terms& terms, Sheltering& sheltering,
                          FlowAtGrains& flow) {
   if (!terms.drag || !any_explicit(terms)) return;
   std::span<const double> level;
   if (terms.exposure) level = sheltering.find(around.box, grains);
-  for (std::size_t p = 0; p < grains.size(); ++p) {
-    const double d = grains.diameter[p], nu = around.viscosity;
-    std::optional<WallThere> there;
-    if (terms.wall_forces) there = wall_at(around.grid, grains.position[p], flow.packing.others[p]);
-    const Vec3 vorticity = flow.vorticity[p];
-    Vec3 applied = without_own_flow(removed_at(flow, p));
-    Vec3 slip = scaled(applied, flow.velocity[p] - grains.velocity[p]), lift;   // undisturbed
-    if (there) {
-      const WallDrag drag = add_wall_drag(around, *there, d, p, flow);
-      const Vec3 wall = wall_velocity(around, there->wall), grain = grains.velocity[p] - wall;
-      const Vec3 along = drag.undisturbed(flow.velocity[p] - wall, grain);
-      applied = drag.applied, slip = along - grain;
-      if (terms.shear_lift) {
-        Vec3 normal;
-        normal[there->wall.axis] = there->wall.upper ? -1 : 1;
-        const Vec3 at_wall = cross(normal, along) / there->wall.distance;
-        lift = there->share * shear_lift_near_wall(slip, vorticity, at_wall, d, nu, there->wall.distance);
-      }
+  for (std::size_t first = 0; first < grains.size(); first += 4) {
+    const std::size_t count = std::min<std::size_t>(grains.size() - first, 4);
+    LiftedGrain four[4];
+    Quad slip{}, vorticity{}, spin{}, diameter{}, by_shear{}, by_spin{};
+    for (std::size_t k = 0; k < count; ++k) {
+      const LiftedGrain& g = four[k] = meet_wall(around, grains, terms, first + k, flow);
+      slip[k] = norm(g.slip), vorticity[k] = norm(g.vorticity), spin[k] = norm(g.relative_spin);
+      diameter[k] = grains.diameter[first + k];
     }
-    if (terms.shear_lift) lift += (1 - (there ? there->share : 0)) * saffman_mei(slip, vorticity, d, nu);
-    if (terms.magnus) lift += magnus(slip, grains.spin[p] - 0.5 * vorticity, d, nu);
-    if (terms.model_b()) lift = lift / std::clamp(flow.void_fraction[p], least_void, 1.0);
-    const Vec3 beta = flow.drag[p];
-    const Vec3 limited = limited_lift(lift, std::min({beta.x, beta.y, beta.z}));
-    flow.lift_clamps += limited != lift;
-    flow.force[p] += scaled(applied, cross(slip, limited));
-    if (terms.exposure) flow.force[p] += scaled(beta, exposure_velocity(level[p], d, vorticity));
+    if (terms.shear_lift) by_shear = saffman_mei(slip, vorticity, diameter, around.viscosity);
+    if (terms.magnus) by_spin = magnus(slip, spin, diameter, around.viscosity);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t p = first + k;
+      const LiftedGrain& g = four[k];
+      Vec3 lift = g.at_wall + g.free * (by_shear[k] * g.vorticity) + by_spin[k] * g.relative_spin;
+      if (terms.model_b()) lift = lift / std::clamp(flow.void_fraction[p], least_void, 1.0);
+      const Vec3 beta = flow.drag[p];
+      const Vec3 limited = limited_lift(lift, std::min({beta.x, beta.y, beta.z}));
+      flow.lift_clamps += limited != lift;
+      flow.force[p] += scaled(g.applied, cross(g.slip, limited));
+      if (terms.exposure) flow.force[p] += scaled(beta, exposure_velocity(level[p], grains.diameter[p], g.vorticity));
+    }
   }
 }
 

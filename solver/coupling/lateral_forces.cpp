@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "solver/coupling/elementary.hpp"
+
 namespace bedload {
 namespace {
 
@@ -11,22 +13,30 @@ constexpr double largest_lift = 0.5;   // of the drag
 
 }   // namespace
 
-Vec3 saffman_mei(Vec3 slip, Vec3 vorticity, double d, double viscosity) {
-  const double w = norm(slip), omega = norm(vorticity);
-  if (!(w > 0 && omega > 0)) return {};
-  const double re = w * d / viscosity;
-  const double root = 0.3314 * std::sqrt(d * omega / (2 * w));
+Quad saffman_mei(Quad slip, Quad vorticity, Quad d, double viscosity) {
+  const Quad re = slip * d / viscosity;
+  const Quad root_of_rate = 0.3314 * root(d * vorticity / (2.0 * slip));
   // Published in two pieces that part by exp(-4) at Re 40; the first one's exponential goes on here, so that they meet.
-  const double f = (1 - root) * std::exp(-re / 10) + root * std::max(1.0, std::sqrt(re / 40));
-  return 1.615 * d * d * std::sqrt(viscosity / omega) * f * vorticity;
+  const Quad beyond = root(re / 40.0);
+  const Quad f =
+      (1.0 - root_of_rate) * exponential(-re / 10.0) + root_of_rate * choose(beyond > 1.0, beyond, quad(1.0));
+  return choose((slip > 0.0) & (vorticity > 0.0), 1.615 * d * d * root(viscosity / vorticity) * f, Quad{});
+}
+
+Vec3 saffman_mei(Vec3 slip, Vec3 vorticity, double d, double viscosity) {
+  return saffman_mei(quad(norm(slip)), quad(norm(vorticity)), quad(d), viscosity)[0] * vorticity;
+}
+
+Quad magnus(Quad slip, Quad relative_spin, Quad d, double viscosity) {
+  const Quad re = slip * d / viscosity, spin_re = relative_spin * d * d / viscosity, slow = spin_re / re;
+  const Quad powers = exponential(0.4 * logarithm(spin_re) + 0.3 * logarithm(re));
+  const Quad finite = (0.45 + (slow - 0.45) * exponential(-0.05684 * powers)) / slow;
+  const Quad factor = pi / 8 * d * d * d * choose(finite < 1.0, finite, quad(1.0));
+  return choose((slip > 0.0) & (relative_spin > 0.0), factor, Quad{});
 }
 
 Vec3 magnus(Vec3 slip, Vec3 relative_spin, double d, double viscosity) {
-  const double w = norm(slip), spin = norm(relative_spin);
-  if (!(w > 0 && spin > 0)) return {};
-  const double re = w * d / viscosity, spin_re = spin * d * d / viscosity, slow = spin_re / re;
-  const double finite = 0.45 + (slow - 0.45) * std::exp(-0.05684 * std::pow(spin_re, 0.4) * std::pow(re, 0.3));
-  return pi / 8 * d * d * d * std::min(finite / slow, 1.0) * relative_spin;
+  return magnus(quad(norm(slip)), quad(norm(relative_spin)), quad(d), viscosity)[0] * relative_spin;
 }
 
 double wall_lift_coefficient(double gap, double re) {

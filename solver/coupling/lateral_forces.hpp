@@ -4,7 +4,7 @@
 // the axes, and vanish with slip or vorticity. Lift vectors add.
 #pragma once
 
-#include "base/vec3.hpp"
+#include "solver/coupling/quad.hpp"
 
 namespace bedload {
 
@@ -12,10 +12,14 @@ namespace bedload {
 /// by Mei 1992 (Int. J. Multiphase Flow 18, 145): k = 1.615 d^2 sqrt(nu/|omega|) f omega. Far from walls, for
 /// d |omega|/(2 |w|) <= 0.4 and Re <= 100. slip [m/s]; vorticity of the fluid, curl u [1/s]; diameter [m]; viscosity [m2/s].
 Vec3 saffman_mei(Vec3 slip, Vec3 vorticity, double diameter, double viscosity);
+/// The same of four grains, given the magnitudes: lift vector per vorticity [m3].
+Quad saffman_mei(Quad slip, Quad vorticity, Quad diameter, double viscosity);
 
 /// Lift vector of a spinning sphere, relative_spin = omega_p - curl(u)/2 [rad/s]: Rubinow & Keller 1961 (J. Fluid Mech. 11,
 /// 447), (pi/8) d^3, where slow; Oesterle & Bui Dinh 1998 (Exp. Fluids 25, 16) up to Re 140, never above Rubinow & Keller.
 Vec3 magnus(Vec3 slip, Vec3 relative_spin, double diameter, double viscosity);
+/// The same of four grains, given the magnitudes: lift vector per relative spin [m3].
+Quad magnus(Quad slip, Quad relative_spin, Quad diameter, double viscosity);
 
 /// Lift coefficient, lift/((pi/8) d^2 U^2), of a sphere at rest in a shear flow along a plane wall, gap diameters from it, U
 /// the undisturbed speed at its centre and Re = U d/nu: Zeng, Najjar, Balachandar & Fischer 2009 (Phys. Fluids 21, 033302),

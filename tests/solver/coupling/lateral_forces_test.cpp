@@ -56,6 +56,32 @@ TEST(SaffmanMei, FollowsMeisFitWhereItWasMade) {
     }
 }
 
+TEST(LiftOfFourGrains, IsThatOfEachAlone) {
+  // Lanes without slip, or without rotation, leave the others alone.
+  const Quad slip{1e-3, 0.2, 0, 5e-2}, turn{10, 3, 7, 0}, diameter{1e-3, 2e-3, 5e-4, 0};
+  const Quad by_shear = saffman_mei(slip, turn, diameter, nu), by_spin = magnus(slip, turn, diameter, nu);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(by_shear[k] * turn[k], saffman_mei({slip[k], 0, 0}, {0, turn[k], 0}, diameter[k], nu).y) << k;
+    EXPECT_EQ(by_spin[k] * turn[k], magnus({slip[k], 0, 0}, {0, turn[k], 0}, diameter[k], nu).y) << k;
+  }
+  EXPECT_GT(by_shear[1], 0);
+  EXPECT_GT(by_spin[1], 0);
+  EXPECT_EQ(by_shear[2], 0);
+  EXPECT_EQ(by_spin[3], 0);
+}
+
+TEST(Magnus, FollowsOesterleAndBuiDinhsFit) {
+  // Oesterle & Bui Dinh 1998: C_L = 0.45 + (Re_r/Re - 0.45) exp(-0.05684 Re_r^0.4 Re^0.3), force (pi/8) d^2 C_L w^2 at right angles.
+  for (const double re : {1.0, 20.0, 140.0})
+    for (const double slow : {1.0, 2.0, 6.0}) {   // Re_r/Re
+      const double w = re * nu / d, spin = slow * w / d;
+      const double coefficient =
+          0.45 + (slow - 0.45) * std::exp(-0.05684 * std::pow(slow * re, 0.4) * std::pow(re, 0.3));
+      const double force = norm(magnus_force({w, 0, 0}, {0, spin, 0}));
+      EXPECT_NEAR(force / (pi / 8 * d * d * coefficient * w * w), 1, 1e-13) << re << " " << slow;
+    }
+}
+
 TEST(SaffmanMei, ScalesAsDimensionsDemand) {
   // Lengths x 3, times x 5: forces per density x 3^4/5^2.
   const double length = 3, time = 5;
