@@ -27,8 +27,11 @@ Coupler::Parts::Parts(const Scene& given)
       carried(grid) {
   if (scene.terms.turbulence) turbulence.emplace(grid, scene.bed.fluid.viscosity);
   if (scene.terms.added_mass || explicit_forces()) added_exchange = reaction = Deposited(grid);
-  if (scene.terms.viscous_torque) spin_exchange.emplace(grid);
-  if (wants_vorticity()) vorticity = vorticity_change = FaceFields(grid), woven_edges = Woven(grid, On::edges);
+  before.woven = after.woven = solid_flux.woven = response.exchange = flow.woven = woven;
+  response.locked = flow.woven_too = woven_too;
+  drag.work_in(woven, woven_too);
+  if (scene.terms.viscous_torque) spin_exchange.emplace(grid), spin_exchange->work_in(woven, woven_too);
+  if (wants_vorticity()) vorticity = vorticity_change = FaceFields(grid), woven_edges = Woven(woven, On::edges);
 }
 
 Coupler::Coupler(const Scene& scene) : parts_(std::make_unique<Parts>(scene)) {}

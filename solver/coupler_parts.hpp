@@ -56,7 +56,7 @@ struct Coupler::Parts {
   double courant_rate = 0;       // of u^n: cells that it crosses per time [1/s]
   bool responds_alone = false;   // the pressure's last matrix was that of fluid alone
   SolidFlux solid_flux;
-  Woven woven, woven_too;
+  Woven woven, woven_too;   // what all parts of the step work in, by turns
   MixtureResponse response;
   Field<Centre> rhs, correction;
   FaceFields kick, shared;

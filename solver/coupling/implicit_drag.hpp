@@ -31,6 +31,8 @@ struct DragProblem {
 class ImplicitDrag {
  public:
   explicit ImplicitDrag(const StaggeredGrid&);
+  /// Makes two woven fields its scratch.
+  void work_in(const Woven& one, const Woven& other) { woven_ = one, woven_too_ = other; }
   static constexpr int most_iterations = 500;
 
   /// `impulse` = T b_f on entry (b = eps a or a, in Model A or B). On return `velocity` (u^n on entry) holds u* + r/eps, in

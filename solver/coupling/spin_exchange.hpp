@@ -21,6 +21,8 @@ inline double torque_factor(double re) noexcept { return std::max(1.0, 0.6386 + 
 class SpinExchange {
  public:
   explicit SpinExchange(const StaggeredGrid&);
+  /// Makes two woven fields its scratch.
+  void work_in(const Woven& one, const Woven& other) { woven_ = {one, On::edges}, woven_too_ = {other, On::edges}; }
 
   /// Takes `strength` = T c'_p per axis [m5] and spin targets omega_t [rad/s] by id, and the vorticity of u^n on edges.
   void prepare(const Stencils&, std::span<const Vec3> strength, std::span<const Vec3> target,

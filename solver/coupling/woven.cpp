@@ -77,7 +77,7 @@ void Woven::read(const Reach& reach, const FaceFields& fields, const Field<Centr
         const double* field = t < 3 ? fields.component(t) : in_cells ? in_cells->data() : nullptr;
         source[t] = field ? field + grid_.index(home(t, 0, i), home(t, 1, j), 0) : nullptr;
       }
-      Quad* const row = cells_.data() + grid_.index(i, j, 0);
+      Quad* const row = data_ + grid_.index(i, j, 0);
       for (int k = below; k < first; ++k) row[k] = take(k);
       const double *x = source[0], *y = source[1], *z = source[2], *cell = source[3];
       if (cell)
@@ -90,7 +90,7 @@ void Woven::read(const Reach& reach, const FaceFields& fields, const Field<Centr
 
 void Woven::clear(const Reach& reach) {
   reach_ = reach;
-  for_each_row(grid_, reach, [&](std::size_t row, int length) { std::fill_n(cells_.data() + row, length, Quad{}); });
+  for_each_row(grid_, reach, [&](std::size_t row, int length) { std::fill_n(data_ + row, length, Quad{}); });
 }
 
 /// Of a plane of ghosts, what stands for a plane inside goes there; what is its own stays.
@@ -104,7 +104,7 @@ void Woven::fold_along(int c, const Reach& box) {
     Reach plane = box;
     plane.first[c] = p, plane.last[c] = p + 1;
     for_each_row(grid_, plane, [&](std::size_t row, int length) {
-      for (Quad *q = cells_.data() + row, *end = q + length; q != end; ++q) q[to] += *q * goes, *q -= *q * goes;
+      for (Quad *q = data_ + row, *end = q + length; q != end; ++q) q[to] += *q * goes, *q -= *q * goes;
     });
   }
 }
@@ -118,7 +118,7 @@ void Woven::settle(Deposited& out, Field<Centre>* in_cells) {
   out.clear_beyond(grid_, home);
   out.reach = home;
   for_each_row(grid_, home, [&](std::size_t row, int length) {
-    const Quad* __restrict q = cells_.data() + row;
+    const Quad* __restrict q = data_ + row;
     double* __restrict x = out.component(0) + row;
     double* __restrict y = out.component(1) + row;
     double* __restrict z = out.component(2) + row;

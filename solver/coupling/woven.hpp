@@ -106,16 +106,20 @@ struct Untouched : std::allocator<T> {
   }
 };
 
-/// A woven field, in the padded shape of all fields; it holds values within the reach of the last read or clear.
+/// A woven field, in the padded shape of all fields; it holds values within the reach of the last read or clear. Copies share
+/// its memory: scratch that many use in turns stays in the cache.
 class Woven {
  public:
   Woven() = default;
-  explicit Woven(const StaggeredGrid& g, On where = On::faces) : grid_(g), where_(where), cells_(g.padded_size()) {}
+  explicit Woven(const StaggeredGrid& g, On where = On::faces)
+      : grid_(g), where_(where), cells_(std::make_shared<Cells>(g.padded_size())), data_(cells_->data()) {}
+  /// In the memory of another, which the use of either overwrites.
+  Woven(const Woven& other, On where) : Woven(other) { where_ = where; }
 
-  bool fits(const StaggeredGrid& g) const { return grid_ == g && !cells_.empty(); }
-  const Quad* at(const Stencil& s) const { return cells_.data() + s.corner; }
-  Quad* at(const Stencil& s) { return cells_.data() + s.corner; }
-  Quad* data() { return cells_.data(); }
+  bool fits(const StaggeredGrid& g) const { return grid_ == g && cells_; }
+  const Quad* at(const Stencil& s) const { return data_ + s.corner; }
+  Quad* at(const Stencil& s) { return data_ + s.corner; }
+  Quad* data() { return data_; }
 
   /// Takes the fields up within the reach; `in_cells` may be null.
   void read(const Reach&, const FaceFields&, const Field<Centre>* in_cells = nullptr);
@@ -130,7 +134,9 @@ class Woven {
   StaggeredGrid grid_;
   On where_ = On::faces;
   Reach reach_;   // of the last clear
-  std::vector<Quad, Untouched<Quad>> cells_;
+  using Cells = std::vector<Quad, Untouched<Quad>>;
+  std::shared_ptr<Cells> cells_;
+  Quad* data_ = nullptr;   // of cells_
 };
 
 }   // namespace bedload
