@@ -164,7 +164,7 @@ TEST_F(ResultsTest, SayWhichTermsASceneHasAndWhereItIsOutOfRange) {
 }
 
 std::vector<std::string> documented_queries() {
-  std::ifstream file(std::filesystem::path(__FILE__).parent_path() / "../../docs/database.md");
+  std::ifstream file(std::filesystem::path(BEDLOAD_SOURCE_DIR) / "docs/database.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   std::vector<std::string> queries;
   const std::string fence = "```sql\n";
