@@ -50,7 +50,7 @@ shields = {{ from = 0.06, ratio = 1.2, steps = 12 }}
 dwell   = "25 td"                           # per step; td = max(sqrt(d/((s-1) g)), d/U_t)
 
 [onset]
-method    = "ramp"                          # ramp | none
+method    = "ramp"                          # ramp (screening) | bisect (holds from one settled bed) | none
 criterion = "flux"                          # flux | moving_fraction
 value     = 1e-2
 

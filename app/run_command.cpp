@@ -71,7 +71,7 @@ int run_command(const RunOptionsOfCommand& options) {
   const auto named = options.study.out ? place.directory.string() : place.name;   // in the commands to come
   if (code == 75) log_note(fmt::format("stopped with work left; go on with: bedload run {}", named));
   if (code == 0 || code == 1) log_note(fmt::format("report in {}", write_report(place).string()));
-  if (code == 0 && has_ramp(read_study(place.file)))
+  if (code == 0 && seeks_onset(read_study(place.file)))
     log_note(fmt::format("bedload curve {} shows the thresholds", named));
   if (code == 1) log_note(fmt::format("bedload explain {} CASE says why a case failed", named));
   return code;

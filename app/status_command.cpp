@@ -54,14 +54,19 @@ std::string state_in_words(const Standing& s) {
   return std::string(word(s.entry->state));
 }
 
+/// A search does not know how many holds it will take.
+std::string hold_in_words(const Heartbeat& beat) {
+  return beat.holds > 0 ? fmt::format("{}/{}", beat.hold, beat.holds) : fmt::format("{}", beat.hold);
+}
+
 Rows case_rows(const std::vector<Standing>& all) {
   Rows rows{{"case", "state", "hold", "theta", "percent", "steps_per_s", "worker", "core_hours_left", "message"}, {}};
   for (const auto& s : all) {
     if (s.entry->is_bed && s.entry->state == CaseState::done) continue;
-    const bool ramp = s.beat && s.beat->phase == "ramp" && s.entry->state != CaseState::done;
-    rows.rows.push_back({s.entry->label, state_in_words(s),
-                         ramp ? Value(fmt::format("{}/{}", s.beat->hold, s.beat->holds)) : Value(),
-                         ramp ? Value(s.beat->shields) : Value(), 100 * s.fraction,
+    const bool holds =
+        s.beat && s.beat->phase != "packing" && s.beat->phase != "finished" && s.entry->state != CaseState::done;
+    rows.rows.push_back({s.entry->label, state_in_words(s), holds ? Value(hold_in_words(*s.beat)) : Value(),
+                         holds ? Value(s.beat->shields) : Value(), 100 * s.fraction,
                          s.worker && s.beat ? Value(s.beat->steps_per_second) : Value(),
                          s.worker ? Value(fmt::format("pid {} on {}", s.worker->pid, s.worker->host)) : Value(),
                          s.core_hours_left, s.entry->message});

@@ -26,7 +26,8 @@ std::string bar(double fraction) {
 
 std::string position_of(const RunningCase& c) {
   if (c.phase.empty()) return "starting";
-  return c.holds > 0 ? fmt::format("{} {}/{}, Shields {:.3g}", c.phase, c.hold, c.holds, c.shields) : c.phase;
+  if (c.holds > 0) return fmt::format("{} {}/{}, Shields {:.3g}", c.phase, c.hold, c.holds, c.shields);
+  return c.shields > 0 ? fmt::format("{}, hold {}, Shields {:.3g}", c.phase, c.hold, c.shields) : c.phase;
 }
 
 std::string line_of(const RunningCase& c) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "solver/bed/bed_profiles.hpp"
 #include "solver/bed/bed_surface.hpp"
@@ -74,7 +75,7 @@ BedRecorder::BedRecorder(const Scene& scene)
 
 void BedRecorder::before_step(State& state) {
   Search& search = state.search;
-  in_last_half_ = state.clock.time - search.hold_start >= scene_.drive.dwell / 2;
+  in_last_half_ = state.clock.time - search.hold_start >= search.duration / 2;
   const bool open_half = in_last_half_ && search.half.duration == 0, open_sample = search.sample.duration == 0;
   if (open_half || open_sample) {
     const StreamwiseMomentum now = momentum_of_(state, search.bed_height);
@@ -112,8 +113,8 @@ void BedRecorder::after_step(State& state, const StepHealth& health, const StepB
 /// The last half is cut into blocks whose scatter gives the standard error of its flux.
 void BedRecorder::close_block(State& state) const {
   Search& search = state.search;
-  const double half = scene_.drive.dwell / 2, into_half = state.clock.time - search.hold_start - half;
-  const bool over = state.clock.time - search.hold_start >= scene_.drive.dwell;
+  const double half = search.duration / 2, into_half = state.clock.time - search.hold_start - half;
+  const bool over = state.clock.time - search.hold_start >= search.duration;
   if (!over && into_half < (search.blocks + 1) * half / blocks_per_half) return;
   search.blocks += 1;
   search.block_events_squared += search.block_events * search.block_events;
@@ -202,6 +203,18 @@ void BedRecorder::record_tracks(State& state) const {
   }
 }
 
+/// A step of a ramp is judged by the whole ramp; a hold of a search by its own flux.
+HoldVerdict BedRecorder::verdict_of(const State& state) const {
+  const Search& search = state.search;
+  if (search.purpose == std::uint64_t(HoldPurpose::ramp)) return HoldVerdict::none;
+  const BedRecord::Samples& samples = state.record.samples;
+  const auto first =
+      static_cast<std::size_t>(std::ranges::lower_bound(samples.hold, double(search.hold)) - samples.hold.begin());
+  const Thirds flux = thirds_of(std::span(samples.time).subspan(first), std::span(samples.flux).subspan(first),
+                                search.hold_start, state.clock.time);
+  return judge_hold(flux.middle, flux.last, scene_.onset.value);
+}
+
 void BedRecorder::close_hold(State& state) {
   Search& search = state.search;
   const Window& window = search.half;
@@ -212,6 +225,9 @@ void BedRecorder::close_hold(State& state) {
 
   BedRecord::Holds& row = state.record.holds;
   append_bed(scene_, state, row);
+  row.purpose.push_back(double(search.purpose));
+  row.level.push_back(search.level);
+  row.verdict.push_back(double(verdict_of(state)));
   row.start.push_back(search.hold_start);
   row.end.push_back(state.clock.time);
   row.shields_measured.push_back(measured_shields(search, window, now));

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "solver/bed/onset_search.hpp"
 #include "solver/coupler.hpp"
 #include "solver/mixture_momentum.hpp"
 
@@ -24,6 +25,7 @@ class BedRecorder {
 
  private:
   void close_block(State&) const;
+  HoldVerdict verdict_of(const State&) const;
   void record_sample(State&, const StepHealth&);
   void record_tracks(State&) const;
   double outer_force(const State&, const StepBooks&) const;

@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include <fmt/format.h>
+
+#include "base/error.hpp"
 #include "solver/bed/bed_surface.hpp"
 #include "solver/bed/incipient_motion.hpp"
+#include "solver/bed/onset_search.hpp"
 #include "solver/bed/turbulent_flow.hpp"
 #include "solver/bed_recorder.hpp"
 #include "solver/grains/bed_packing.hpp"
@@ -32,6 +37,14 @@ class StateBefore {
   ContactHistory contacts_;
 };
 
+/// What a flow finds before anything has moved.
+struct SettledBed {
+  Grains grains;
+  ContactHistory contacts;
+};
+
+constexpr double usual_holds = 14;   // of a search, stirs counted by their length
+
 }   // namespace
 
 struct Experiment::Parts {
@@ -43,22 +56,26 @@ struct Experiment::Parts {
   BedRecorder recorder;
   std::unique_ptr<BedPacking> packing;
   StateBefore before;   // scratch of coupled_step
+  SettledBed settled;   // where a search begins its holds
 
-  bool ramp_over(const State& state) const {
-    return ramp_is_over(state.record, scene.onset, scene.drive.levels.size());
-  }
-  void start_ramp(State&) const;
+  std::optional<PlannedHold> next_hold(const BedRecord&) const;
+  void start_ramp(State&);
+  void return_to_settled_bed(State&);
   StepHealth pack(State&);
   StepHealth hold(State&);
   StepHealth coupled_step(State&);
-  void begin_hold(State&) const;
+  void begin_hold(State&);
   void add_steady_flow(State&, const ImposedFlow& change) const;
 };
 
 Experiment::Experiment(const Scene& scene) : parts_(std::make_unique<Parts>(scene)) {}
 Experiment::~Experiment() = default;
 const Coupler& Experiment::coupler() const { return parts_->coupler; }
-void Experiment::forget() { parts_ = std::make_unique<Parts>(parts_->scene); }
+void Experiment::forget() {
+  auto anew = std::make_unique<Parts>(parts_->scene);
+  anew->settled = std::move(parts_->settled);   // handed in, or made once: no scratch
+  parts_ = std::move(anew);
+}
 
 State Experiment::begin() const {
   State state;
@@ -77,7 +94,7 @@ State Experiment::begin_on(State settled) const {
 }
 
 bool Experiment::reopen(State& state) const {
-  if (!finished(state) || parts_->scene.bed_only || parts_->ramp_over(state)) return false;
+  if (!finished(state) || parts_->scene.bed_only || !parts_->next_hold(state.record)) return false;
   state.search.phase = Search::holding;
   ++state.search.hold;
   state.search.hold_begun = 0;
@@ -88,9 +105,13 @@ StepHealth Experiment::step(State& state) {
   return state.search.phase == Search::packing ? parts_->pack(state) : parts_->hold(state);
 }
 
-double Experiment::planned_time() const {
-  const FlowRamp& ramp = parts_->scene.drive;
-  return ramp.dwell * static_cast<double>(std::max<std::size_t>(1, ramp.levels.size()));
+void Experiment::branch_from(const State& settled) { parts_->settled = {settled.grains, settled.contacts}; }
+
+double planned_time(const Scene& scene) {
+  const FlowRamp& ramp = scene.drive;
+  const auto levels = static_cast<double>(std::max<std::size_t>(1, ramp.levels.size()));
+  return scene.onset.method == Onset::Method::bisect ? ramp.dwell * levels / 2 + usual_holds * scene.onset.hold
+                                                     : ramp.dwell * levels;
 }
 
 StepHealth Experiment::Parts::pack(State& state) {
@@ -109,9 +130,24 @@ StepHealth Experiment::Parts::pack(State& state) {
   return health;
 }
 
+/// Which hold comes next follows from those that are done, by the ramp or by a search; none when it is over.
+std::optional<PlannedHold> Experiment::Parts::next_hold(const BedRecord& record) const {
+  if (scene.onset.method == Onset::Method::bisect)
+    return bedload::next_hold({.staircase = scene.drive.levels,
+                               .bracket = scene.onset.bracket,
+                               .stair = scene.drive.dwell,
+                               .hold = scene.onset.hold},
+                              judged_holds(record.holds));
+  const std::vector<double>& levels = scene.drive.levels;
+  if (ramp_is_over(record, scene.onset, levels.size())) return std::nullopt;
+  const std::size_t hold = record.holds.hold.size();
+  return PlannedHold{HoldPurpose::ramp, hold < levels.size() ? levels[hold] : 0, scene.drive.dwell, false};
+}
+
 /// The bed is as the flow will find it: the ramp's clock starts here.
-void Experiment::Parts::start_ramp(State& state) const {
+void Experiment::Parts::start_ramp(State& state) {
   constexpr double before_the_ramp = -1;
+  if (scene.onset.method == Onset::Method::bisect) settled = {state.grains, state.contacts};
   recorder.record_profiles_of(state, before_the_ramp);
   state.clock.time = 0;
   state.search.phase = scene.bed_only ? Search::finished : Search::holding;
@@ -124,14 +160,14 @@ StepHealth Experiment::Parts::hold(State& state) {
   const StepHealth health = coupled_step(state);
   if (!ailment(health).empty()) return health;
   recorder.after_step(state, health, coupler.books());
-  if (state.clock.time - search.hold_start < scene.drive.dwell) return health;
+  if (state.clock.time - search.hold_start < search.duration) return health;
 
   recorder.close_hold(state);
-  if (ramp_over(state)) {
-    search.phase = Search::finished;
-  } else {
+  if (next_hold(state.record)) {
     ++search.hold;
     search.hold_begun = 0;
+  } else {
+    search.phase = Search::finished;
   }
   return health;
 }
@@ -139,7 +175,7 @@ StepHealth Experiment::Parts::hold(State& state) {
 /// A step that went badly is undone and taken again at half its length. What is shorter stays so for a while: the ceiling is
 /// part of the state, so that a resumed run takes the same steps. After the last try the state is that before the step.
 StepHealth Experiment::Parts::coupled_step(State& state) {
-  const double asked = std::min(scene.steps.fluid_interval, scene.drive.dwell / 2);
+  const double asked = std::min(scene.steps.fluid_interval, state.search.duration / 2);
   double ceiling = state.clock.longest_step > 0 ? state.clock.longest_step : asked;
   before.keep(state);
   StepHealth health;
@@ -164,10 +200,14 @@ StepHealth Experiment::Parts::coupled_step(State& state) {
 }
 
 /// Momentum crosses the gap in H^2/(pi^2 nu), far longer than a dwell: the steady flow of the new level is set at once.
-void Experiment::Parts::begin_hold(State& state) const {
+void Experiment::Parts::begin_hold(State& state) {
   Search& search = state.search;
+  const PlannedHold plan = *next_hold(state.record);
+  if (plan.from_settled) return_to_settled_bed(state);
+  search.purpose = static_cast<std::uint64_t>(plan.purpose);
+  search.level = plan.level, search.duration = plan.duration;
   search.bed_height = bed_surface(state.grains, scene.bed.length, scene.bed.grains.diameter).height;
-  const ImposedFlow flow = imposed_flow(scene, search.hold, search.bed_height);
+  const ImposedFlow flow = imposed_level(scene, plan.level, search.bed_height);
   if (scene.developed)
     add_steady_flow(state,
                     {.lid_speed = flow.lid_speed - search.lid_speed, .gradient = flow.gradient - search.gradient});
@@ -184,6 +224,19 @@ void Experiment::Parts::begin_hold(State& state) const {
   search.health = {};
   search.blocks = search.block_events = search.block_events_squared = 0;
   std::fill(state.grains.travel.begin(), state.grains.travel.end(), 0.0);
+}
+
+/// Fluid, grains and contacts; the clock, the search and the record go on.
+void Experiment::Parts::return_to_settled_bed(State& state) {
+  if (settled.grains.size() == 0 && !needs_settling(scene.bed)) settled.grains = place_grains(scene.bed);
+  if (settled.grains.size() != state.grains.size())
+    throw Error(ErrorKind::internal, fmt::format("a search on {} grains has a settled bed of {}", state.grains.size(),
+                                                 settled.grains.size()));
+  state.fluid = initial_flow(scene);
+  state.grains = settled.grains;
+  state.contacts = settled.contacts;
+  Search& s = state.search;
+  s.shields = s.lid_speed = s.gradient = s.push = s.through_flow = 0;
 }
 
 void Experiment::Parts::add_steady_flow(State& state, const ImposedFlow& change) const {

@@ -7,6 +7,9 @@
 
 namespace bedload {
 
+/// Predicted end of the clock of a scene's experiment [s]: levels x dwell of a ramp, about as much as a search takes.
+double planned_time(const Scene&);
+
 class Experiment {
  public:
   explicit Experiment(const Scene&);
@@ -16,6 +19,9 @@ class Experiment {
   State begin() const;
   /// A settled bed (the final state of a bed directory) as the start of this scene's ramp.
   State begin_on(State settled) const;
+  /// The settled bed that a search branches from, for a state that was taken up again. Not needed where `begin` or
+  /// `begin_on` was asked, or where nothing needs to settle.
+  void branch_from(const State& settled);
   /// A finished state whose ramp this scene has not ended (more levels, another onset criterion) goes on with the next
   /// hold. False, and nothing changed, if there is nothing to go on with.
   bool reopen(State&) const;
@@ -28,8 +34,6 @@ class Experiment {
 
   static bool finished(const State& s) { return s.search.phase == Search::finished; }
   const Coupler& coupler() const;
-  /// Predicted end of the run's clock [s] (ramp: levels x dwell).
-  double planned_time() const;
   void forget();   // all scratch
 
  private:

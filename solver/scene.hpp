@@ -66,11 +66,13 @@ struct Smoothing {
 };
 
 struct Onset {
-  enum class Method { ramp, none };
+  enum class Method { ramp, bisect, none };
   enum class Criterion { flux, moving_fraction };
   Method method = Method::ramp;
   Criterion criterion = Criterion::flux;
   double value = 1e-2;
+  double bracket = 0.04;   // of a bisection: upper/lower - 1 at which it ends [-]
+  double hold = 0;         // of a bisection: how long a level is held [s]
 };
 
 struct Steps {

@@ -38,6 +38,9 @@ struct Search {
   std::uint64_t phase = packing;
   std::uint64_t hold = 0;            // index of the hold under way
   std::uint64_t hold_begun = 0;      // 1 once this hold's flow has been imposed
+  std::uint64_t purpose = 0;         // of this hold: a HoldPurpose
+  double level = 0;                  // asked for, in the quantity of the drive
+  double duration = 0;               // [s]
   double hold_start = 0;             // [s]
   double bed_height = 0;             // z_b when the hold began [m]
   double shields = 0;                // nominal, imposed now [-]
@@ -105,6 +108,9 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("search/phase", s.search.phase, "1");
   visit("search/hold", s.search.hold, "1");
   visit("search/hold_begun", s.search.hold_begun, "1");
+  visit("search/purpose", s.search.purpose, "1");
+  visit("search/level", s.search.level, "1");
+  visit("search/duration", s.search.duration, "s");
   visit("search/hold_start", s.search.hold_start, "s");
   visit("search/bed_height", s.search.bed_height, "m");
   visit("search/shields", s.search.shields, "1");
@@ -150,6 +156,9 @@ void State::each_field(Self& s, Visit&& visit) {
 
   auto& h = s.record.holds;
   visit("record/holds/hold", h.hold, "1");
+  visit("record/holds/purpose", h.purpose, "1");
+  visit("record/holds/level", h.level, "1");
+  visit("record/holds/verdict", h.verdict, "1");
   visit("record/holds/start", h.start, "s");
   visit("record/holds/end", h.end, "s");
   visit("record/holds/shields_nominal", h.shields_nominal, "1");
@@ -192,11 +201,11 @@ void State::each_field(Self& s, Visit&& visit) {
 
   // A new member of State changes one of these sizes: list it above, then here.
   static_assert(sizeof(Clock) == 5 * 8 && sizeof(Window) == 7 * 8 && sizeof(HoldHealth) == 20 * 8 &&
-                sizeof(Search) == 14 * 8 + 2 * sizeof(Window) + sizeof(HoldHealth));
+                sizeof(Search) == 17 * 8 + 2 * sizeof(Window) + sizeof(HoldHealth));
   static_assert(sizeof(FluidState) == 4 * sizeof(Field<Centre>) + 8);
   static_assert(sizeof(Grains) == 9 * sizeof(std::vector<Vec3>) &&
                 sizeof(ContactHistory) == 5 * sizeof(std::vector<Vec3>));
-  static_assert(sizeof(BedRecord) == (12 + 15 + 21 + 5 + 11) * sizeof(std::vector<double>));
+  static_assert(sizeof(BedRecord) == (12 + 18 + 21 + 5 + 11) * sizeof(std::vector<double>));
 }
 
 /// SHA-256 over each_field: name, unit, shape, little-endian bytes of the interior. Hexadecimal.

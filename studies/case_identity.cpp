@@ -15,17 +15,19 @@ std::string written(const std::string& value) { return value; }
 std::string written(const std::vector<std::string>& values) { return fmt::format("{}", fmt::join(values, ",")); }
 std::string written(const std::vector<std::uint64_t>& values) { return fmt::format("{}", fmt::join(values, ",")); }
 
-/// What may change without changing a bit of the run so far.
-bool is_identity(std::string_view key) {
-  return key != "onset.criterion" && key != "onset.value" && !key.ends_with(".steps");
+/// A ramp's end and what counts as onset may change without changing a bit of the run so far; the way of a search hangs on
+/// them.
+bool is_identity(std::string_view key, bool searched) {
+  return searched || (key != "onset.criterion" && key != "onset.value" && !key.ends_with(".steps"));
 }
 
 using Lines = std::map<std::string, std::string, std::less<>>;   // sorted
 
 Lines lines_of(const CaseInputs& inputs) {
   Lines lines;
+  const bool searched = inputs.word("onset.method") == "bisect";
   for (const auto& [key, value] : inputs.values)
-    if (is_identity(key)) lines[key] = std::visit([](const auto& v) { return written(v); }, value);
+    if (is_identity(key, searched)) lines[key] = std::visit([](const auto& v) { return written(v); }, value);
   // The grid is what the cell sizes asked for come to.
   const auto cells = scene_of(inputs).grid.cells;
   lines.erase("box.cell.xy"), lines.erase("box.cell.z");

@@ -23,7 +23,7 @@ namespace bedload {
 namespace {
 
 constexpr std::string_view ramp_parts[] = {"from", "ratio", "step", "steps"};
-constexpr double most_levels = 10'000, most_steps = 0x1p53;
+constexpr double most_levels = 10'000, most_steps = 0x1p53, most_holds = 100;
 constexpr std::string_view staircases[] = {"drive.shields", "drive.speed", "drive.gradient", "drive.push",
                                            "drive.through_flow"};
 
@@ -61,6 +61,7 @@ class Resolver : InputList {
   void start();
   void take_unless_default(std::string_view key);
   void onset();
+  void bisection();
   void models();
   void smoothing();
   void wanted();
@@ -251,7 +252,8 @@ void Resolver::staircase(std::string_view table) {
 void Resolver::duration() {
   const auto table = staircase_of(inputs);
   const double levels = table.empty() ? 1 : number(joined(table, "steps"));
-  const double count = levels * number("drive.dwell") / number("steps.dem");
+  const double searched = inputs.has("onset.hold") ? most_holds * number("onset.hold") : 0;
+  const double count = (levels * number("drive.dwell") + searched) / number("steps.dem");
   if (count <= most_steps) return;
   problem("drive.dwell",
           fmt::format("{:.0f} times {:.3g} s are {:.3g} DEM steps, more than the {:.3g} that a clock can count", levels,
@@ -262,13 +264,27 @@ void Resolver::duration() {
 void Resolver::onset() {
   take_all({"onset.criterion", "onset.value"});
   const bool driven = word("drive.kind") != "none";
-  if (!given("onset.method")) {
-    inputs.values["onset.method"] = std::string(driven ? "ramp" : "none");
-    return;
+  if (given("onset.method")) take("onset.method");
+  else inputs.values["onset.method"] = std::string(driven ? "ramp" : "none");
+  const std::string& method = word("onset.method");
+  if (!driven && method != "none")
+    problem("onset.method", fmt::format("a {} needs a drive", method == "ramp" ? "ramp" : "bisection"),
+            "set drive.kind, or onset.method = \"none\"");
+  for (const auto key : {"onset.bracket", "onset.hold"}) {
+    if (method == "bisect") take(key);
+    else if (given(key)) refuse(key, "only onset.method = \"bisect\" reads it");
   }
-  take("onset.method");
-  if (!driven && word("onset.method") == "ramp")
-    problem("onset.method", "a ramp needs a drive", "set drive.kind, or onset.method = \"none\"");
+  if (method == "bisect" && driven) bisection();
+}
+
+/// Levels of a search lie between those of a staircase, and its holds are judged by their flux.
+void Resolver::bisection() {
+  if (staircase_of(inputs) != "drive.shields")
+    problem("onset.method", "a bisection looks for a Shields number, and wants levels of it",
+            "for example: drive.shields = { from = 0.06, ratio = 1.2, steps = 12 }");
+  if (word("onset.criterion") != "flux")
+    problem("onset.criterion", "a bisection asks whether grains go on moving downstream, which their flux says",
+            "onset.criterion = \"flux\"");
 }
 
 void Resolver::models() {

@@ -17,6 +17,7 @@
 #include "scheduler/attempt.hpp"
 #include "scheduler/heartbeat.hpp"
 #include "scheduler/request.hpp"
+#include "solver/bed/onset_search.hpp"
 #include "solver/experiment.hpp"
 #include "solver/step_judgement.hpp"
 #include "studies/case_file.hpp"
@@ -55,6 +56,7 @@ class Worker {
   void publish();
   void finish();
   bool reached() const;
+  bool searches() const { return case_.scene.onset.method == Onset::Method::bisect; }
   bool asked_to_stop() const { return StopSignals::arrived() || requested_; }
   void say(const std::string& line) const { request_.report(line); }
 
@@ -81,20 +83,20 @@ Worker::Worker(const RunCaseRequest& request)
 
 /// Newest checkpoint, else the bed that was prepared, else grains as they are placed.
 State Worker::first_state() {
+  const bool has_bed = !case_.scene.bed_only && fs::exists(directory_ / "bed.h5");
   if (auto newest = checkpoints_.newest()) {
     published_step_ = newest->clock.step;
+    if (has_bed && searches()) experiment_.branch_from(read_checkpoint(directory_ / "bed.h5"));
     return std::move(*newest);
   }
-  if (!case_.scene.bed_only && fs::exists(directory_ / "bed.h5"))
-    return experiment_.begin_on(read_checkpoint(directory_ / "bed.h5"));
-  return experiment_.begin();
+  return has_bed ? experiment_.begin_on(read_checkpoint(directory_ / "bed.h5")) : experiment_.begin();
 }
 
 /// The ramp may have been made longer, or shorter than what is done already.
 void Worker::continue_or_end_ramp() {
   if (experiment_.reopen(state_)) return say("the ramp goes on: it was made longer, or its onset criterion changed");
   const bool past_the_end =
-      state_.search.phase == Search::holding && state_.search.hold >= case_.scene.drive.levels.size();
+      !searches() && state_.search.phase == Search::holding && state_.search.hold >= case_.scene.drive.levels.size();
   if (past_the_end) state_.search.phase = Search::finished;
 }
 
@@ -145,6 +147,8 @@ int Worker::advance() {
 void Worker::step() {
   const bool coupled = state_.search.phase == Search::holding;
   const auto health = experiment_.step(state_);
+  const bool settled = !coupled && state_.search.phase == Search::holding;
+  if (settled && searches()) write_checkpoint(directory_ / "bed.h5", state_);   // its holds come back to it
   if (const auto cause = ailment(health); !cause.empty()) {
     throw Error(
         ErrorKind::numerical,
@@ -164,11 +168,14 @@ void Worker::beat() {
   Heartbeat beat;
   beat.pid = ::getpid();
   beat.step = state_.clock.step;
-  beat.phase = search.phase == Search::packing ? "packing" : search.phase == Search::holding ? "ramp" : "finished";
+  beat.phase = search.phase == Search::packing   ? "packing"
+               : search.phase != Search::holding ? "finished"
+               : searches()                      ? std::string(name_of(HoldPurpose(search.purpose)))
+                                                 : "ramp";
   beat.time = search.phase == Search::packing ? 0 : state_.clock.time;
-  beat.planned_time = case_.scene.bed_only ? 0 : experiment_.planned_time();
+  beat.planned_time = case_.scene.bed_only ? 0 : planned_time(case_.scene);
   beat.hold = static_cast<int>(search.hold) + 1;
-  beat.holds = static_cast<int>(case_.scene.drive.levels.size());
+  beat.holds = searches() ? 0 : static_cast<int>(case_.scene.drive.levels.size());
   beat.shields = search.shields;
   beat.steps_per_second = static_cast<double>(state_.clock.step - first_step_) / wall;
   beat.core_seconds = attempt_.core_seconds;

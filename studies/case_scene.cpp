@@ -137,10 +137,15 @@ Scene scene_of(const CaseInputs& inputs) {
   if (inputs.has("fluid.start")) scene.fluid_start = FluidStart::taylor_green;
   scene.start_speed = number_or_zero(inputs, "fluid.start_speed");
   scene.bottom_roughness = number_or_zero(inputs, "box.roughness");
-  scene.onset.method = inputs.word("onset.method") == "ramp" ? Onset::Method::ramp : Onset::Method::none;
+  const std::string& method = inputs.word("onset.method");
+  scene.onset.method = method == "ramp"     ? Onset::Method::ramp
+                       : method == "bisect" ? Onset::Method::bisect
+                                            : Onset::Method::none;
   scene.onset.criterion =
       inputs.word("onset.criterion") == "flux" ? Onset::Criterion::flux : Onset::Criterion::moving_fraction;
   scene.onset.value = inputs.number("onset.value");
+  if (inputs.has("onset.bracket")) scene.onset.bracket = inputs.number("onset.bracket");
+  scene.onset.hold = number_or_zero(inputs, "onset.hold");
   scene.drag = drag_law_named(inputs.word("models.drag"));
   scene.terms = terms_of(inputs);
   scene.smoothing = {.xy = number_or_zero(inputs, "models.smoothing.xy"),

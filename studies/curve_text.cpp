@@ -58,9 +58,11 @@ std::string remarks(const std::vector<ThresholdPoint>& curve) {
 
 std::string onset_in_words(const std::vector<ThresholdPoint>& curve) {
   const auto& first = curve.front();
-  return fmt::format("onset: {} >= {:g} per surface grain{}; cells {} d high",
+  return fmt::format("onset: {} >= {:g} per surface grain{}, {}; cells {} d high",
                      first.criterion == "flux" ? "flux" : "moving fraction", first.criterion_value,
-                     first.criterion == "flux" ? " and td" : "", range_of(curve, &ThresholdPoint::cell_z));
+                     first.criterion == "flux" ? " and td" : "",
+                     first.method == "ramp" ? "by a ramp (screening)" : "by bisection from the settled bed",
+                     range_of(curve, &ThresholdPoint::cell_z));
 }
 
 std::string curve_as_table(const std::vector<ThresholdPoint>& curve) {

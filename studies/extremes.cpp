@@ -110,7 +110,7 @@ std::vector<std::byte> run_straight(const Scene& scene, State& state, ExtremeRow
   ConservationBooks books(scene);
   state = settled(experiment, stop);
   row.grains = state.grains.size();
-  const double half = experiment.planned_time() / 2;
+  const double half = planned_time(scene) / 2;
   std::vector<std::byte> middle;
   while (!Experiment::finished(state)) {
     const State before = state;

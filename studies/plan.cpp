@@ -10,6 +10,7 @@
 #include "base/log.hpp"
 #include "checkpoint/checkpoint_series.hpp"
 #include "solver/bed/incipient_motion.hpp"
+#include "solver/experiment.hpp"
 #include "studies/case_file.hpp"
 #include "studies/case_identity.hpp"
 #include "studies/study_directory.hpp"
@@ -84,7 +85,7 @@ Cost predicted_cost(const Scene& scene) {
   const double checkpoint =
       grains * (bytes_per_grain + contacts_per_grain * bytes_per_contact) + cells * bytes_per_cell;
   if (scene.bed_only) return {grains * packing_steps / grain_steps_per_second, 2 * checkpoint};
-  const double time = scene.drive.dwell * static_cast<double>(std::max<std::size_t>(1, scene.drive.levels.size()));
+  const double time = planned_time(scene);
   Cost cost;
   cost.core_seconds = grains * time / scene.bed.dem_step / grain_steps_per_second +
                       cells * time / scene.steps.fluid_interval * seconds_per_cell_step;

@@ -58,6 +58,8 @@ CREATE TABLE IF NOT EXISTS ramp_points (           -- one row per hold, means ov
   porosity                  REAL NOT NULL,
   coordination              REAL NOT NULL,
   momentum_residual         REAL,                  -- in units of a Shields number
+  purpose                   TEXT NOT NULL,         -- ramp, or of a bisection: staircase | onset | stir | stop
+  verdict                   TEXT NOT NULL,         -- none (ramp), arrested | undecided | mobile
   PRIMARY KEY (case_id, hold)
 ) STRICT;
 
@@ -96,6 +98,9 @@ CREATE TABLE IF NOT EXISTS thresholds (            -- per case and criterion
   shields                   REAL,                  -- theta_c
   shields_lower             REAL,
   shields_upper             REAL,
+  method                    TEXT NOT NULL,         -- ramp (screening) | bisect
+  stop_lower                REAL,                  -- theta_stop: where a moving bed came to rest, and where it did not
+  stop_upper                REAL,
   PRIMARY KEY (case_id, criterion, value)
 ) STRICT;
 
@@ -191,7 +196,8 @@ CREATE TABLE IF NOT EXISTS threshold_curve (       -- per parameter set, over it
   bracketed                 INTEGER NOT NULL,
   censored_below            INTEGER NOT NULL,
   censored_above            INTEGER NOT NULL,
-  noisy                     INTEGER NOT NULL
+  noisy                     INTEGER NOT NULL,
+  method                    TEXT NOT NULL          -- ramp (screening) | bisect
 ) STRICT;
 
 CREATE VIEW IF NOT EXISTS transport_curve AS

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "solver/bed/incipient_motion.hpp"
+#include "solver/bed/onset_search.hpp"
 #include "solver/coupling/drag_laws.hpp"
 #include "solver/dimensionless.hpp"
 #include "solver/required_models.hpp"
@@ -109,7 +110,9 @@ void store_ramp(Database& database, const CaseIdentity& id, const Scene& scene, 
             h.roughness[k],
             h.porosity[k],
             h.coordination[k],
-            known(h.momentum_residual[k])});
+            known(h.momentum_residual[k]),
+            std::string(name_of(static_cast<HoldPurpose>(h.purpose[k]))),
+            std::string(name_of(static_cast<HoldVerdict>(h.verdict[k])))});
   }
 }
 
@@ -127,9 +130,18 @@ void store_health_of_hold(Database& database, const std::string& case_id, std::u
   insert(database, "step_health", row);
 }
 
+void store_searched(Database& database, const CaseIdentity& id, const Onset& onset, const BedRecord& record) {
+  const SearchedMotion found = searched_motion(record);
+  insert(database, "thresholds",
+         {id.id, std::string("flux"), onset.value, flag(true), std::string(name_of(found.onset.status)),
+          real_or_null(found.onset.shields), real_or_null(found.onset.lower), real_or_null(found.onset.upper),
+          std::string("bisect"), real_or_null(found.stop_lower), real_or_null(found.stop_upper)});
+}
+
 /// The study's own criterion, and flux at 1e-3 (where rearrangements begin to count) and 1e-2 for every study alike.
 void store_thresholds(Database& database, const CaseIdentity& id, const Onset& onset, const BedRecord& record) {
   if (onset.method == Onset::Method::none) return;
+  if (onset.method == Onset::Method::bisect) return store_searched(database, id, onset, record);
   using Criterion = Onset::Criterion;
   std::set<std::pair<Criterion, double>> wanted{{Criterion::flux, 1e-3}, {Criterion::flux, 1e-2}};
   wanted.emplace(onset.criterion, onset.value);
@@ -139,7 +151,7 @@ void store_thresholds(Database& database, const CaseIdentity& id, const Onset& o
     insert(database, "thresholds",
            {id.id, std::string(criterion == Criterion::flux ? "flux" : "moving_fraction"), value, flag(decides),
             std::string(name_of(found.status)), real_or_null(found.shields), real_or_null(found.lower),
-            real_or_null(found.upper)});
+            real_or_null(found.upper), std::string("ramp"), Value(), Value()});
   }
 }
 

@@ -220,9 +220,9 @@ std::vector<Case> unfold(const Study& study, const TableReader& read_table) {
   return cases;
 }
 
-bool has_ramp(const Study& study) {
+bool seeks_onset(const Study& study) {
   return std::ranges::any_of(unfold(study),
-                             [](const Case& one) { return one.scene.onset.method == Onset::Method::ramp; });
+                             [](const Case& one) { return one.scene.onset.method != Onset::Method::none; });
 }
 
 fs::path result_directory(const Study& study, const std::optional<fs::path>& out) {

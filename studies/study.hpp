@@ -54,7 +54,7 @@ struct Case {
 std::vector<Case> unfold(const Study&, const TableReader& = read_text);
 
 /// True if some case has a ramp, which alone gives a threshold.
-bool has_ramp(const Study&);
+bool seeks_onset(const Study&);
 
 /// The directory that holds a study's results: named after the study, beside its file; or `out`.
 std::filesystem::path result_directory(const Study&, const std::optional<std::filesystem::path>& out);

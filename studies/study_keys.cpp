@@ -110,7 +110,9 @@ constexpr StudyKey keys[] = {
     not_physics(count("drive.through_flow.steps", "")),
     amount("drive.dwell", dimension::time, "dwell", "25 td"),
 
-    word("onset.method", "onset", "ramp|none", {}, "bisect"),
+    word("onset.method", "onset", "ramp|bisect|none"),
+    number("onset.bracket", Range::positive, "bracket", "0.04"),
+    amount("onset.hold", dimension::time, "hold", "100 td"),
     not_physics(word("onset.criterion", "", "flux|moving_fraction", "flux")),
     not_physics(number("onset.value", Range::positive, "", "1e-2")),
 
@@ -141,7 +143,6 @@ struct LaterKey {
 constexpr LaterKey later_keys[] = {
     {"models.accuracy", "settings chosen by a measured accuracy"},
     {"models.turbulence", "turbulence closures"},
-    {"onset.bracket", "bisection to a bracket"},
     {"run.wall_limit", "a wall time limit per attempt"},
     {"run.slurm", "running through Slurm"},
 };

@@ -85,7 +85,8 @@ void summarise(const std::vector<SeedThreshold>& seeds, ThresholdPoint& point) {
 Rows seeds_in_order(const Database& database) {
   return database.query(fmt::format(
       "SELECT s.parameter_set, s.set_label, s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.galileo, "
-      "s.cell_z_m / s.diameter_m, t.criterion, t.value, t.status, t.shields, t.shields_lower, t.shields_upper FROM "
+      "s.cell_z_m / s.diameter_m, t.criterion, t.value, t.status, t.shields, t.shields_lower, t.shields_upper, "
+      "t.method FROM "
       "scenes s JOIN thresholds t USING (case_id) WHERE t.decides = 1 AND {} "
       "ORDER BY s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.parameter_set, s.seed",
       in_study(database)));
@@ -108,6 +109,7 @@ std::vector<ThresholdPoint> curve_from_thresholds(const Database& database) {
       point.cell_z = number_in(row[6]);
       point.criterion = text_in(row[7]);
       point.criterion_value = number_in(row[8]);
+      point.method = text_in(row[13]);
     }
     seeds.back().push_back({text_in(row[9]), number_in(row[10]), number_in(row[11]), number_in(row[12])});
   }
@@ -123,11 +125,27 @@ void update_threshold_curve(Database& database) {
   Database::Transaction transaction(database);
   database.execute("DELETE FROM threshold_curve");
   for (const ThresholdPoint& p : curve_from_thresholds(database))
-    database.execute("INSERT INTO threshold_curve VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                     {p.set, p.label, p.diameter, p.density_ratio, p.viscosity, p.cell_z, p.criterion,
-                      p.criterion_value, real_or_null(p.galileo), real_or_null(p.reynolds), real_or_null(p.shields),
-                      real_or_null(p.lower), real_or_null(p.upper), p.status, count(p.seeds), count(p.bracketed),
-                      count(p.censored_below), count(p.censored_above), count(p.noisy)});
+    database.execute("INSERT INTO threshold_curve VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                     {p.set,
+                      p.label,
+                      p.diameter,
+                      p.density_ratio,
+                      p.viscosity,
+                      p.cell_z,
+                      p.criterion,
+                      p.criterion_value,
+                      real_or_null(p.galileo),
+                      real_or_null(p.reynolds),
+                      real_or_null(p.shields),
+                      real_or_null(p.lower),
+                      real_or_null(p.upper),
+                      p.status,
+                      count(p.seeds),
+                      count(p.bracketed),
+                      count(p.censored_below),
+                      count(p.censored_above),
+                      count(p.noisy),
+                      p.method});
   transaction.commit();
 }
 
@@ -138,7 +156,7 @@ std::vector<ThresholdPoint> threshold_curve(const Database& database) {
       "SELECT parameter_set, label, diameter_m, density_ratio, viscosity_m2_per_s, cell_z_d, criterion, "
       "criterion_value, "
       "galileo, friction_reynolds, shields, shields_lower, shields_upper, status, seeds, bracketed, censored_below, "
-      "censored_above, noisy FROM "
+      "censored_above, noisy, method FROM "
       "threshold_curve "
       "ORDER BY diameter_m, density_ratio, viscosity_m2_per_s, parameter_set");
   const auto whole = [](const Value& value) { return static_cast<std::uint64_t>(std::get<std::int64_t>(value)); };
@@ -161,7 +179,8 @@ std::vector<ThresholdPoint> threshold_curve(const Database& database) {
                      .bracketed = whole(row[15]),
                      .censored_below = whole(row[16]),
                      .censored_above = whole(row[17]),
-                     .noisy = whole(row[18])});
+                     .noisy = whole(row[18]),
+                     .method = text_in(row[19])});
   return curve;
 }
 

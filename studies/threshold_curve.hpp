@@ -25,6 +25,7 @@ struct ThresholdPoint {
   std::string status;            // bracketed | censored_below | censored_above | noisy
   std::uint64_t seeds = 0;       // finished
   std::uint64_t bracketed = 0, censored_below = 0, censored_above = 0, noisy = 0;   // of them
+  std::string method = "ramp";                                                      // ramp (screening) | bisect
 };
 
 /// Recomputes table threshold_curve from the thresholds of the cases that are in the study, in one transaction. Called

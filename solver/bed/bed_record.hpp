@@ -15,9 +15,10 @@ struct BedRecord {
         moving_fraction, mean_grain_speed, deepest_overlap, momentum_residual;
     bool operator==(const Samples&) const = default;
   } samples;
-  struct Holds {   // one row per finished hold
-    std::vector<double> hold, start, end, shields_nominal, shields_measured, lid_speed, gradient, flux,
-        flux_standard_error, moving_fraction, bed_height, roughness, porosity, coordination, momentum_residual;
+  struct Holds {   // one row per finished hold; purpose and verdict are numbers of HoldPurpose and HoldVerdict
+    std::vector<double> hold, purpose, level, verdict, start, end, shields_nominal, shields_measured, lid_speed,
+        gradient, flux, flux_standard_error, moving_fraction, bed_height, roughness, porosity, coordination,
+        momentum_residual;
     bool operator==(const Holds&) const = default;
   } holds;
   struct Health {   // one row per finished hold

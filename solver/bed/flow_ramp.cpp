@@ -36,9 +36,13 @@ double bed_stress_per_drive(const Scene& scene, double gap) {
 }   // namespace
 
 ImposedFlow imposed_flow(const Scene& scene, std::uint64_t hold, double bed_height) {
+  return scene.drive.kind == FlowRamp::Kind::none ? ImposedFlow{}
+                                                  : imposed_level(scene, scene.drive.levels.at(hold), bed_height);
+}
+
+ImposedFlow imposed_level(const Scene& scene, double level, double bed_height) {
   const FlowRamp& ramp = scene.drive;
   if (ramp.kind == FlowRamp::Kind::none) return {};
-  const double level = ramp.levels.at(hold);
   if (ramp.kind == FlowRamp::Kind::push) return {.push = level};
   if (ramp.kind == FlowRamp::Kind::through_flow) return {.through_flow = level};
   const double density = scene.bed.fluid.density;

@@ -39,6 +39,8 @@ double shields_stress(const FluidProperties&, const GrainProperties&, double gra
 /// Lid: tau_b = rho_f nu U/(H - z_b), with turbulence that of turbulent_flow(). Pressure: tau_b = rho_f G (H - z_b), half of it under a lid at rest.
 /// Refuses (study_invalid) a bed that fills its box.
 ImposedFlow imposed_flow(const Scene&, std::uint64_t hold, double bed_height);
+/// The same for a level that need not be one of the ramp's.
+ImposedFlow imposed_level(const Scene&, double level, double bed_height);
 
 /// What a change of the imposed flow adds, once steady, to the velocity at height z above a bed of height z_b [m/s]:
 /// linear under a lid, parabolic under a gradient (no stress at a free-slip top, no slip at a lid), nothing below z_b.

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <optional>
 
+#include "solver/bed/onset_search.hpp"
+
 namespace bedload {
 
 namespace {
@@ -72,6 +74,43 @@ IncipientMotion incipient_motion(const BedRecord& record, Onset::Criterion crite
   if (k == 0) return {OnsetStatus::censored_below, unknown, unknown, shields[0]};
   const double onset = log_linear_crossing(shields[k - 1], activity[k - 1], shields[k], activity[k], value);
   return {k == *first ? OnsetStatus::bracketed : OnsetStatus::noisy, onset, lower, shields[k]};
+}
+
+namespace {
+
+/// Measured in the last hold of a purpose at a level [-].
+double measured_at(const BedRecord::Holds& holds, HoldPurpose purpose, double level) {
+  for (std::size_t k = holds.hold.size(); k-- > 0;)
+    if (holds.purpose[k] == static_cast<double>(purpose) && holds.level[k] == level) return holds.shields_measured[k];
+  return unknown;
+}
+
+OnsetStatus status_of(LevelBracket levels, const IncipientMotion& found) {
+  if (!std::isfinite(levels.upper)) return OnsetStatus::censored_above;
+  if (levels.lower == 0) return OnsetStatus::censored_below;
+  return found.lower < found.upper ? OnsetStatus::bracketed : OnsetStatus::noisy;
+}
+
+}   // namespace
+
+SearchedMotion searched_motion(const BedRecord& record) {
+  const BedRecord::Holds& holds = record.holds;
+  if (holds.hold.empty()) return {{OnsetStatus::none, unknown, unknown, unknown}, unknown, unknown};
+  const auto done = judged_holds(holds);
+  const LevelBracket begins = bracket_of(done, HoldPurpose::onset), stops = bracket_of(done, HoldPurpose::stop);
+  SearchedMotion found;
+  IncipientMotion& onset = found.onset;
+  onset.lower = measured_at(holds, HoldPurpose::onset, begins.lower);
+  onset.upper = measured_at(holds, HoldPurpose::onset, begins.upper);
+  if (std::isnan(onset.lower) && std::isnan(onset.upper))
+    onset.lower = holds.shields_measured.back();   // a staircase alone
+  onset.shields = std::sqrt(onset.lower * onset.upper);
+  onset.status = status_of(begins, onset);
+  found.stop_lower = measured_at(holds, HoldPurpose::stop, stops.lower);
+  found.stop_upper = std::isfinite(stops.upper)     ? measured_at(holds, HoldPurpose::stop, stops.upper)
+                     : std::isnan(found.stop_lower) ? unknown
+                                                    : onset.upper;   // what moves a bed at rest keeps one in motion
+  return found;
 }
 
 bool ramp_is_over(const BedRecord& record, const Onset& onset, std::size_t ramp_levels) {

@@ -24,6 +24,15 @@ struct IncipientMotion {
   double upper = 0;   // [-]; nan above a last hold that is still
 };
 
+/// The threshold that a search has bracketed, and where a moving bed came to rest; Shields numbers measured in the holds that
+/// bound them, nan where none does. `shields` is their geometric mean. Noisy = what moved was measured to be no stronger than
+/// what rested.
+struct SearchedMotion {
+  IncipientMotion onset;
+  double stop_lower = 0, stop_upper = 0;   // [-]
+};
+SearchedMotion searched_motion(const BedRecord&);
+
 /// Onset by ramp: the first hold k at or above `value` that k+1 confirms; pure function of the record.
 IncipientMotion incipient_motion(const BedRecord&, Onset::Criterion, double value);
 

@@ -77,7 +77,6 @@ TEST_F(BadInput, KeyOfALaterVersion) {
     const char *table, *line, *message;
   };
   for (const auto& [table, line, message] : {
-           Later{"[onset]\n", "method = \"bisect\"", "onset.method: \"bisect\" is not in this version"},
            Later{"", "executor = \"slurm\"", "run.executor: \"slurm\" is not in this version"},
            Later{"", "ranks = 2", "run.ranks: 2 ranks per case are not in this version"},
            Later{"", "wall_limit = \"1 h\"", "run.wall_limit is not in this version (a wall time limit per attempt)"},

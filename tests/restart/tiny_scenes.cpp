@@ -121,4 +121,19 @@ TinyScene taken_again() {
   return {"taken_again", scene};
 }
 
+TinyScene search() {
+  Scene scene = poured_bed(0, {8, 6, 6}, {4, 3, 12});
+  scene.bed.source = {.kind = BedSource::Kind::file, .count = 20, .csv = "x,y,z,diameter,density,fixed\n"};
+  for (int n = 0; n < 20; ++n) {   // each stands on the bottom, in rows a little apart
+    const double x = 1.6 * (n % 5) + 0.5, y = 1.5 * (n / 5) + 0.3 * (n % 2) + 0.5;
+    scene.bed.source.csv += fmt::format("{},{},{},{},2000,0\n", x * diameter, y * diameter, 0.5 * diameter, diameter);
+  }
+  add_ramp(scene, FlowRamp::Kind::lid, {0.05, 0.5, 5}, 14);
+  scene.bed.grains.rolling_friction = 0.5;
+  scene.onset = {.method = Onset::Method::bisect, .bracket = 2, .hold = 21 * scene.steps.fluid_interval};
+  scene.record.tracks = {0, 19};
+  validate(scene);
+  return {"search", scene};
+}
+
 }   // namespace bedload::test

@@ -33,8 +33,12 @@ TinyScene every_term();
 /// is undone and taken again shorter.
 TinyScene taken_again();
 
+/// A layer of grains on the bottom, searched for its threshold: holds that branch from where it stood at first.
+TinyScene search();
+
 inline std::vector<TinyScene> tiny_scenes() {
-  return {lid_driven(), stream_on_a_slope(), suspension(), syrup_through_a_layer(), every_term(), taken_again()};
+  return {lid_driven(), stream_on_a_slope(), suspension(), syrup_through_a_layer(),
+          every_term(), taken_again(),       search()};
 }
 
 }   // namespace bedload::test

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/error.hpp"
 #include "solver/bed/bed_surface.hpp"
 #include "solver/bed/incipient_motion.hpp"
+#include "solver/bed/onset_search.hpp"
 #include "solver/step_judgement.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -108,7 +110,7 @@ TEST(Experiment, WithoutADriveIsOneHoldOfOneDwell) {
   const State state = run(scene);
   EXPECT_EQ(state.record.holds.hold.size(), 1u);
   EXPECT_GE(state.clock.time, scene.drive.dwell);
-  EXPECT_EQ(Experiment(scene).planned_time(), scene.drive.dwell);
+  EXPECT_EQ(planned_time(scene), scene.drive.dwell);
 }
 
 TEST(Experiment, OnASharedBedIsTheExperimentThatPacksItsOwn) {
@@ -134,6 +136,80 @@ TEST(Experiment, GoesOnWhenItsRampGrows) {
   ASSERT_TRUE(experiment.reopen(state));
   while (!Experiment::finished(state)) experiment.step(state);
   EXPECT_EQ(state_digest(state), state_digest(run(longer)));
+}
+
+/// A bed of one search, two holds of which branch from the settled bed.
+struct SearchOfABed {
+  Scene scene = bed_scene(60, FlowRamp::Kind::lid, {0.02, 0.2, 2});
+  State settled;
+  SearchOfABed() {
+    scene.onset = {.method = Onset::Method::bisect, .value = 1e-2, .bracket = 0.5, .hold = scene.drive.dwell};
+    Scene bed_only = scene;
+    bed_only.bed_only = true;
+    settled = run(bed_only);
+  }
+};
+
+TEST(Experiment, BranchesEveryOnsetHoldFromTheSettledBed) {
+  const SearchOfABed bed;
+  Experiment experiment(bed.scene);
+  State state = experiment.begin_on(bed.settled);
+  int branches = 0;
+  while (!Experiment::finished(state)) {
+    const bool begins = state.search.hold_begun == 0;
+    experiment.step(state);
+    if (!begins || state.search.purpose != std::uint64_t(HoldPurpose::onset)) continue;
+    if (state.search.duration > bed.scene.onset.hold) continue;   // goes on
+    ++branches;
+    Scene alone = bed.scene;   // the same level, and nothing before it
+    alone.drive.levels = {state.search.level};
+    alone.onset.method = Onset::Method::none;
+    Experiment fresh(alone);
+    State expected = fresh.begin_on(bed.settled);
+    fresh.step(expected);
+    EXPECT_EQ(state.grains, expected.grains) << state.search.hold;
+    EXPECT_EQ(state.contacts, expected.contacts);
+    EXPECT_EQ(state.fluid, expected.fluid);
+  }
+  EXPECT_GE(branches, 2);
+}
+
+TEST(Experiment, TakesASearchUpAgainOnlyWithTheBedThatItBranchesFrom) {
+  const SearchOfABed bed;
+  Experiment straight(bed.scene);
+  State whole = straight.begin_on(bed.settled);
+  while (!Experiment::finished(whole)) straight.step(whole);
+
+  Experiment first(bed.scene);
+  State state = first.begin_on(bed.settled);
+  while (state.search.purpose != std::uint64_t(HoldPurpose::onset)) first.step(state);
+  Experiment second(bed.scene);
+  second.branch_from(bed.settled);
+  State resumed = state;
+  while (!Experiment::finished(resumed)) second.step(resumed);
+  EXPECT_EQ(state_digest(resumed), state_digest(whole));
+
+  Experiment without(bed.scene);
+  EXPECT_THROW(while (!Experiment::finished(state)) without.step(state), Error);
+}
+
+TEST(Experiment, JudgesTheHoldsOfASearchAndEndsWithABracket) {
+  const SearchOfABed bed;
+  Experiment experiment(bed.scene);
+  State state = experiment.begin_on(bed.settled);
+  while (!Experiment::finished(state)) experiment.step(state);
+  const auto& holds = state.record.holds;
+  double moved = 10, rested = 0;
+  for (std::size_t k = 0; k < holds.hold.size(); ++k) {
+    EXPECT_NE(holds.verdict[k], double(HoldVerdict::none));
+    EXPECT_NEAR(holds.shields_nominal[k], holds.level[k], 1e-12);
+    if (holds.purpose[k] != double(HoldPurpose::onset)) continue;
+    if (holds.verdict[k] == double(HoldVerdict::mobile)) moved = std::min(moved, holds.level[k]);
+    if (holds.verdict[k] == double(HoldVerdict::arrested)) rested = std::max(rested, holds.level[k]);
+  }
+  EXPECT_GT(rested, 0);
+  EXPECT_LT(rested, moved);
+  EXPECT_LT(moved, 10);
 }
 
 }   // namespace

@@ -32,16 +32,18 @@ class ReportTest : public ::testing::Test {
  protected:
   ReportTest() { create_result_tables(database_); }
   void add_point(const std::string& set, const char* status, Value shields, Value lower, Value upper) {
-    database_.execute("INSERT INTO threshold_curve VALUES (?,?,5e-4,2,1e-5,0.5,'flux',0.01,3.5,1.4,?,?,?,?,1,1,0,0,0)",
-                      {set, set, shields, lower, upper, std::string(status)});
+    database_.execute(
+        "INSERT INTO threshold_curve VALUES (?,?,5e-4,2,1e-5,0.5,'flux',0.01,3.5,1.4,?,?,?,?,1,1,0,0,0,'ramp')",
+        {set, set, shields, lower, upper, std::string(status)});
   }
   void add_case() {
     database_.execute(
         "INSERT INTO scenes VALUES "
         "('c','label-c','set','set',1,5e-4,0,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,1,'stokes',1,1,1,0)");
-    database_.execute("INSERT INTO thresholds VALUES ('c','flux',0.01,1,'bracketed',0.17,0.15,0.18)");
+    database_.execute("INSERT INTO thresholds VALUES ('c','flux',0.01,1,'bracketed',0.17,0.15,0.18,'ramp',NULL,NULL)");
     for (const auto* row : {"0,0,1,0.1,0.1,0,0,0,0,0,0", "1,1,2,0.2,0.2,0,0,0,0,0.5,0.1"})
-      database_.execute(std::string("INSERT INTO ramp_points VALUES ('c',") + row + ",0,0,0.1,0.003,0.0005,0.4,5,0)");
+      database_.execute(std::string("INSERT INTO ramp_points VALUES ('c',") + row +
+                        ",0,0,0.1,0.003,0.0005,0.4,5,0,'ramp','none')");
     for (int z = 0; z < 4; ++z)
       database_.execute("INSERT INTO bed_statistics VALUES ('c',1,?,0.5,0.1,0.05)", {z * 1e-3});
     database_.execute("INSERT INTO models VALUES ('c',0,'drag',1,1,0.5,'a < b & c')");
@@ -79,7 +81,8 @@ TEST_F(ReportTest, ShowsValuesFilledAndOneSidedBoundsOpen) {
   add_point("b", "censored_above", Value(), 0.44, Value());
   const std::string html = page();
   EXPECT_NE(html.find("a: theta_c = 0.1700, between 0.1500 and 0.1800"), std::string::npos);
-  EXPECT_NE(html.find("onset: flux &gt;= 0.01 per surface grain and td; cells 0.5 d high"), std::string::npos);
+  EXPECT_NE(html.find("onset: flux &gt;= 0.01 per surface grain and td, by a ramp (screening); cells 0.5 d high"),
+            std::string::npos);
   const std::size_t bound = html.find("b: theta_c &gt; 0.4400");
   ASSERT_NE(bound, std::string::npos);
   EXPECT_NE(html.substr(bound - 140, 140).find("fill='#fff'"), std::string::npos);

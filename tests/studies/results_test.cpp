@@ -49,6 +49,7 @@ State finished_state() {
     for (auto* column : {&h.start, &h.end, &h.shields_nominal, &h.lid_speed, &h.gradient, &h.flux_standard_error,
                          &h.moving_fraction, &h.bed_height, &h.roughness, &h.porosity, &h.coordination})
       column->push_back(k);
+    for (auto* column : {&h.purpose, &h.level, &h.verdict}) column->push_back(0);   // of a ramp
     h.hold.push_back(k);
     h.shields_measured.push_back(0.1 * (k + 1));
     h.flux.push_back(k < 2 ? 1e-4 : 0.1);

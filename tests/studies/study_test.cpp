@@ -89,6 +89,17 @@ TEST(Study, KeepsIdsWhenOnlyTheOnsetCriterionChanges) {
             ids_of(with(good_study, "[drive]", "[onset]\ncriterion = \"moving_fraction\"\nvalue = 0.02\n[drive]")));
 }
 
+TEST(Study, OfABisectionCountsItsCriterionAndItsStairsAmongWhatItIs) {
+  const auto searched = with(good_study, "[drive]", "[onset]\nmethod = \"bisect\"\n[drive]");
+  const auto id = cases_of(searched).at(0).id;
+  EXPECT_NE(id, cases_of(good_study).at(0).id);
+  for (const auto& [key, other] : {std::pair{"[onset]", "[onset]\nvalue = 2e-2"},
+                                   {"[onset]", "[onset]\nbracket = 0.1"},
+                                   {"[onset]", "[onset]\nhold = \"50 td\""},
+                                   {"steps = 12", "steps = 13"}})
+    EXPECT_NE(cases_of(with(searched, key, other)).at(0).id, id) << other;
+}
+
 TEST(Study, KeepsIdsWhenTheRampGrowsLonger) {
   EXPECT_EQ(ids_of(good_study), ids_of(with(good_study, "steps = 12", "steps = 20")));
 }

@@ -27,7 +27,7 @@ class ThresholdCurveTest : public ::testing::Test {
         "INSERT INTO scenes VALUES "
         "(?,?,?,?,?,?,0.05,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,?,'di_felice',1,1,1,0)",
         {id, id, set, "label-" + set, std::int64_t{seed}, diameter, cell_z});
-    database_.execute("INSERT INTO thresholds VALUES (?,'flux',0.01,1,?,?,?,?)",
+    database_.execute("INSERT INTO thresholds VALUES (?,'flux',0.01,1,?,?,?,?,'ramp',NULL,NULL)",
                       {id, status, real_or_null(shields), real_or_null(lower), real_or_null(upper)});
     update_threshold_curve(database_);
   }
@@ -125,7 +125,9 @@ TEST_F(ThresholdCurveTest, ShowsOneSidedBoundsToPeopleAsInequalities) {
 TEST_F(ThresholdCurveTest, SaysWhatCountsAsOnsetOnWhichCells) {
   add_seed("a", 1, 5e-4, "bracketed", 0.16, 0.15, 0.18);
   const auto said = curve_as_table(threshold_curve(database_));
-  EXPECT_NE(said.find("\nonset: flux >= 0.01 per surface grain and td; cells 0.5 d high\n"), said.npos) << said;
+  EXPECT_NE(said.find("\nonset: flux >= 0.01 per surface grain and td, by a ramp (screening); cells 0.5 d high\n"),
+            said.npos)
+      << said;
   EXPECT_EQ(said.find("lower -"), said.npos) << said;
   EXPECT_EQ(said.find("noisy:"), said.npos) << said;
   cell_z = 0.5e-3;

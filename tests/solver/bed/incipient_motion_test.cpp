@@ -6,6 +6,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "solver/bed/onset_search.hpp"
+
 namespace bedload {
 namespace {
 
@@ -155,6 +157,53 @@ TEST(SurfaceGrains, CoverFourFifthsOfTheBed) {
   scene.bed.grains.diameter = 1;
   scene.bed.length = {20, 12, 13};
   EXPECT_NEAR(surface_grains(scene), 244.46, 0.01);   // "244 surface grains" of a box 20 x 12 d
+}
+
+/// Holds of a search at nominal levels, each measured 0.9 of it.
+struct SearchedBed {
+  BedRecord record;
+  void add(HoldPurpose purpose, double level, HoldVerdict verdict) {
+    auto& h = record.holds;
+    h.hold.push_back(double(h.hold.size()));
+    h.purpose.push_back(double(purpose)), h.level.push_back(level), h.verdict.push_back(double(verdict));
+    h.shields_measured.push_back(0.9 * level);
+  }
+};
+
+TEST(SearchedMotion, IsWhatWasMeasuredInTheHoldsThatBoundIt) {
+  SearchedBed bed;
+  bed.add(HoldPurpose::staircase, 0.3, HoldVerdict::mobile);
+  bed.add(HoldPurpose::onset, 0.3, HoldVerdict::mobile);
+  bed.add(HoldPurpose::onset, 0.1, HoldVerdict::arrested);
+  bed.add(HoldPurpose::onset, 0.2, HoldVerdict::undecided);
+  bed.add(HoldPurpose::onset, 0.2, HoldVerdict::mobile);   // went on
+  bed.add(HoldPurpose::stir, 0.4, HoldVerdict::mobile);
+  bed.add(HoldPurpose::stop, 0.08, HoldVerdict::arrested);
+  const SearchedMotion found = searched_motion(bed.record);
+  EXPECT_EQ(found.onset.status, OnsetStatus::bracketed);
+  EXPECT_DOUBLE_EQ(found.onset.lower, 0.09);
+  EXPECT_DOUBLE_EQ(found.onset.upper, 0.18);
+  EXPECT_DOUBLE_EQ(found.onset.shields, std::sqrt(0.09 * 0.18));
+  EXPECT_DOUBLE_EQ(found.stop_lower, 0.072);
+  EXPECT_DOUBLE_EQ(found.stop_upper, 0.18) << "the bed moved from rest there";
+}
+
+TEST(SearchedMotion, IsABoundWhereABedNeverMovedOrNeverRested) {
+  SearchedBed still;
+  still.add(HoldPurpose::staircase, 0.1, HoldVerdict::arrested);
+  still.add(HoldPurpose::staircase, 0.2, HoldVerdict::arrested);
+  const SearchedMotion above = searched_motion(still.record);
+  EXPECT_EQ(above.onset.status, OnsetStatus::censored_above);
+  EXPECT_DOUBLE_EQ(above.onset.lower, 0.18);
+  EXPECT_TRUE(std::isnan(above.onset.upper) && std::isnan(above.onset.shields) && std::isnan(above.stop_lower));
+
+  SearchedBed restless;
+  restless.add(HoldPurpose::staircase, 0.1, HoldVerdict::mobile);
+  restless.add(HoldPurpose::onset, 0.1, HoldVerdict::mobile);
+  const SearchedMotion below = searched_motion(restless.record);
+  EXPECT_EQ(below.onset.status, OnsetStatus::censored_below);
+  EXPECT_DOUBLE_EQ(below.onset.upper, 0.09);
+  EXPECT_TRUE(std::isnan(below.onset.lower) && std::isnan(below.onset.shields));
 }
 
 }   // namespace
