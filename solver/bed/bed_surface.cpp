@@ -1,18 +1,11 @@
-// Sphere slices, the half-density level, and the elevation seen from above.
+// Solid fraction, the half-density level, and the elevation seen from above.
 #include "solver/bed/bed_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace bedload {
-
-double slice_volume(double radius, double a, double b) noexcept {
-  a = std::clamp(a, -radius, radius);
-  b = std::clamp(b, -radius, radius);
-  return std::numbers::pi * (b - a) * (radius * radius - (a * a + a * b + b * b) / 3);
-}
 
 std::vector<double> solid_fraction(const Grains& grains, Vec3 length, std::size_t bins) {
   std::vector<double> volume(bins);

@@ -7,12 +7,9 @@
 #include "base/vec3.hpp"
 #include "solver/grains/contact_history.hpp"
 #include "solver/grains/grains.hpp"
+#include "solver/grains/slice_volume.hpp"
 
 namespace bedload {
-
-/// Volume of a sphere of radius R about the origin between the planes z = a and z = b (a <= b), [m3]:
-/// pi [R^2 (b - a) + (a^3 - b^3)/3] with a, b cut to [-R, R].
-double slice_volume(double radius, double a, double b) noexcept;
 
 /// Horizontally averaged solid fraction phi [-] in `bins` equal layers of the box, from exact slices.
 /// Slices beyond bottom and top count in the outermost layers, so that the sum is the grains' volume.
