@@ -50,6 +50,17 @@ TEST(GrainSlices, AddUpToTheGrainForAnyPlaceAndAnyLayers) {
   }
 }
 
+TEST(GrainSlices, CarryTheFluxOfAllGrainsThatMove) {
+  const Grains g = random_grains(100, 30, 12);
+  GrainSlices slices;
+  SolidLayers solid;
+  find_slices(column, g, slices), average_grains(column, g, slices, area, solid);
+  double flux = 0;
+  for (std::size_t p = 30; p < g.size(); ++p) flux += sphere_volume(g.diameter[p]) * g.velocity[p].x;
+  const double held = std::accumulate(solid.flux.begin(), solid.flux.end(), 0.0) * area * column.thickness;
+  EXPECT_NEAR(held, flux, 1e-13 * flux);
+}
+
 TEST(GrainSlices, AreTheVolumesBetweenTheLayersEdges) {
   Grains g = random_grains(1, 0, 2);
   g.position[0].z = 1.23e-3, g.diameter[0] = 5e-4;
@@ -122,6 +133,22 @@ TEST(ColumnExchange, GivesGrainsWhatItTakesFromTheLayers) {
       taken += (exchange.rate[k] * u[k] - exchange.pull[k]) * area * column.thickness;
     for (const double f : forces) given += f, size += std::abs(f);
     EXPECT_NEAR(taken, given, 1e-13 * size);
+  }
+}
+
+TEST(ColumnExchange, DragsAGrainByItsVelocityAtTheEndOfTheStep) {   // whatever the step: beta (u - v')
+  const Grains g = random_grains(20, 0, 13);
+  for (const double dt : {1e-6, 1e-3, 1.0}) {
+    const Grown r = response_of(g, dt, 14);
+    GrainSlices slices;
+    find_slices(column, g, slices);
+    std::vector<double> u(64, 0.2), forces;
+    find_forces(slices, {r.drag, r.relaxation, r.ballistic, {}}, u, forces);
+    for (std::size_t p = 0; p < g.size(); ++p) {
+      const double mass = sphere_volume(g.diameter[p]) * g.density[p] / 1000;
+      const double end = r.ballistic[p].x + dt * forces[p] / mass;
+      EXPECT_NEAR(forces[p], r.drag[p].x * (0.2 - end), 1e-12 * r.drag[p].x);
+    }
   }
 }
 

@@ -208,6 +208,64 @@ TEST(ColumnFlow, AboveAPackedBedIsLogarithmicFromWhereItsMixingLengthIsZero) {
   EXPECT_NEAR(deep / (lid_stress_drop * (1 - 0.61) / 1e3), 1, 1e-3);
 }
 
+TEST(ColumnFlow, GivesEddiesTheMixingLengthThatGrainsLeaveThem) {   // eps l^2 S^2 = the weight of the fluid above
+  const double a = 0.05, phi_max = 0.6, h = 1e-3, roughness = 6e-3;
+  TestColumn c({.layers = 30,
+                .thickness = h,
+                .viscosity = 1e-18,
+                .top = Top::free_slip,
+                .packing = phi_max,
+                .sand_roughness = roughness});
+  c.drive.acceleration = a;
+  for (std::size_t k = 0; k < c.layers(); ++k) c.solid.fraction[k] = 0.25 * (1 + std::sin(1.3 * double(k)));
+  c.step(1e4, 200);
+  const int points = 4000;      // of the midpoint rule, per half layer
+  std::vector<double> halves;   // integrals of dz/l, half layer by half layer
+  double length = von_karman * roughness / 30;
+  for (std::size_t k = 0; k < c.layers(); ++k) {
+    const double slope = von_karman * (1 - c.solid.fraction[k] / phi_max), way = 0.5 * h / points;
+    for (int half = 0; half < 2; ++half) {
+      halves.push_back(0);
+      for (int n = 0; n < points; ++n) halves.back() += way / (length + (n + 0.5) * way * slope);
+      length += 0.5 * h * slope;
+    }
+  }
+  for (std::size_t e = 1; e < c.layers(); ++e) {
+    double weight = 0;
+    for (std::size_t k = e; k < c.layers(); ++k) weight += a * h * (1 - c.solid.fraction[k]);
+    const double eps = 1 - 0.5 * (c.solid.fraction[e - 1] + c.solid.fraction[e]);
+    const double slip = std::sqrt(weight / eps) * (halves[2 * e - 1] + halves[2 * e]);
+    EXPECT_NEAR((c.u[e] - c.u[e - 1]) / slip, 1, 1e-4) << e;
+    EXPECT_NEAR(c.flow.stress()[e], weight, 1e-10 * weight) << e;
+  }
+}
+
+TEST(ColumnFlow, HasALogLayerUnderALidToo) {
+  TestColumn c({.layers = 200, .thickness = 1e-3, .viscosity = 1e-9, .packing = 0.6, .sand_roughness = 1e-3});
+  c.drive.lid_speed = 1;
+  c.step(1e3, 300);
+  const double friction_speed = std::sqrt(-c.flow.books().on_lid);
+  for (std::size_t e = 180; e < 198; ++e) {   // the bottom bounds eddies too: 1/l^2 = (1/z^2 + 1/y^2)/kappa^2
+    const double y = c.height() - double(e) * c.column.thickness, z = double(e) * c.column.thickness;
+    const double below = c.height() - c.middle(e - 1), above = c.height() - c.middle(e);
+    const double slip = friction_speed / von_karman * std::log(below / above) * std::sqrt(1 + y * y / (z * z));
+    EXPECT_NEAR((c.u[e] - c.u[e - 1]) / slip, 1, 1e-3) << e;
+  }
+}
+
+TEST(ColumnFlow, OfAMixtureThatIsShearedAsOneIsTheLineOfCouette) {   // the stress is that of eps u + phi v
+  TestColumn c({.layers = 30, .thickness = 1e-3, .viscosity = 1e-4});
+  c.drive.lid_speed = 0.6;
+  for (std::size_t k = 0; k < c.layers(); ++k) {
+    const double v = 0.6 * c.middle(k) / c.height(), phi = 0.3 + 0.2 * std::cos(double(k));
+    c.solid.fraction[k] = phi, c.solid.flux[k] = phi * v;
+    c.exchange.rate[k] = 50, c.exchange.pull[k] = 50 * v;
+  }
+  c.step(1e3, 5);
+  for (std::size_t k = 0; k < c.layers(); ++k) EXPECT_NEAR(c.u[k], 0.6 * c.middle(k) / c.height(), 1e-13);
+  for (const double tau : c.flow.stress()) EXPECT_NEAR(tau, 1e-4 * 0.6 / c.height(), 1e-14);
+}
+
 TEST(ColumnFlow, IsTurbulentOverGrainsThatReachTheirPackingNowhere) {
   TestColumn c({.layers = 100, .thickness = 1e-4, .viscosity = 1e-6, .top = Top::free_slip, .packing = 0.6});
   TestColumn laminar({.layers = 100, .thickness = 1e-4, .viscosity = 1e-6, .top = Top::free_slip});
@@ -233,7 +291,11 @@ TEST(ColumnFlow, ClosesItsBookInAnyStep) {
   std::uniform_real_distribution<double> any(-1, 1);
   for (const Top top : {Top::lid, Top::free_slip})
     for (const double packing : {0.0, 0.6}) {
-      TestColumn c({.layers = 50, .thickness = 1e-3, .viscosity = 1e-5, .top = top, .packing = packing});
+      TestColumn c({.layers = 50,
+                    .thickness = 1e-2,
+                    .viscosity = 1e-5,
+                    .top = top,
+                    .packing = packing});   // walls turbulent too
       c.drive = {0.3, 0.4};
       for (std::size_t k = 0; k < c.layers(); ++k) {
         c.u[k] = any(bits);
