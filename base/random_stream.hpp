@@ -10,7 +10,8 @@ namespace bedload {
 enum class Stream : std::uint8_t {
   grain_diameter = 1,
   grain_place = 2,
-  resampling = 3,   // of the seeds of a threshold: studies/threshold_fit
+  resampling = 3,    // of the seeds of a threshold: studies/threshold_fit
+  onset_level = 4,   // where a search begins: solver/bed/onset_search
 };
 
 /// Philox4x32-10, a counter-based generator: Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11.

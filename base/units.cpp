@@ -27,7 +27,7 @@ struct NamedUnit {
   bool takes_prefix;
 };
 
-constexpr std::array<NamedUnit, 11> units{{
+constexpr std::array<NamedUnit, 12> units{{
     {"m", {.dimension = dimension::length}, true},
     {"g", {.dimension = dimension::mass, .decimal = -3}, true},
     {"s", {.dimension = dimension::time}, true},
@@ -37,6 +37,7 @@ constexpr std::array<NamedUnit, 11> units{{
     {"N", {.dimension = {.length = 1, .mass = 1, .time = -2}}, true},
     {"rad", {.dimension = dimension::angle}, true},
     {"deg", {.dimension = dimension::angle, .factor = std::numbers::pi / 180}, false},
+    {"%", {.decimal = -2}, false},
     {"d", {.dimension = dimension::length, .diameters = 1}, false},
     {"td", {.dimension = dimension::time, .grain_times = 1}, false},
 }};
@@ -128,7 +129,7 @@ void multiply_word(Unit& product, std::string_view word, int sign, const std::st
   if (!unit || !power) {
     throw UnitError(
         fmt::format("{}: \"{}\" is not a unit", complaint, word.empty() ? "/" : word),
-        "units are m g s min h Pa N rad deg with prefixes n u m c k M G; d and td count grain diameters and "
+        "units are m g s min h Pa N rad deg % with prefixes n u m c k M G; d and td count grain diameters and "
         "grain times");
   }
   multiply(product, *unit, sign * *power);
@@ -178,7 +179,8 @@ std::optional<double> read_shifted(std::string_view number, int shift) {
 
 /// A unit may touch its number ("5mm"); a comma or a second point shows a number written in another way.
 bool may_follow_number(std::string_view rest) {
-  return rest.empty() || rest[0] == ' ' || std::isalpha(static_cast<unsigned char>(rest[0])) || (rest[0] & 0x80) != 0;
+  return rest.empty() || rest[0] == ' ' || rest[0] == '%' || std::isalpha(static_cast<unsigned char>(rest[0])) ||
+         (rest[0] & 0x80) != 0;
 }
 
 std::string_view trimmed(std::string_view text) {

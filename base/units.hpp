@@ -54,7 +54,7 @@ struct Quantity {
   double si(const GrainScales& scales = {}) const;
 };
 
-/// Reads "number unit". Units: m g s min h Pa N rad deg with prefixes n u m c k M G, d and td; joined by spaces, * and /,
+/// Reads "number unit". Units: m g s min h Pa N rad deg % with prefixes n u m c k M G, d and td; joined by spaces, * and /,
 /// with powers as in m2, m^2, s-1. A prefix shifts the decimal exponent before the number is read, so "0.2 mm" and
 /// "200 um" are the same bits. Throws UnitError unless the result has the dimension wanted; a bare number has not.
 Quantity parse_quantity(std::string_view text, Dimension wanted);

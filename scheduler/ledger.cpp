@@ -19,7 +19,7 @@ CREATE TABLE IF NOT EXISTS cases (
   directory       TEXT NOT NULL,                   -- relative to the study's
   bed_id          TEXT,                            -- the bed it starts on
   state           TEXT NOT NULL DEFAULT 'pending'
-                  CHECK (state IN ('pending', 'running', 'done', 'failed', 'stopped')),
+                  CHECK (state IN ('pending', 'running', 'done', 'failed', 'stopped', 'spare')),
   message         TEXT NOT NULL DEFAULT '',        -- why it failed or stopped
   in_study        INTEGER NOT NULL DEFAULT 1,      -- 0 = dropped from the study file, results kept
   parameters_json TEXT NOT NULL                    -- all of them; the main ones are columns to the right
@@ -59,7 +59,7 @@ CREATE VIEW IF NOT EXISTS cost AS
   FROM cases c LEFT JOIN attempts a USING (case_id) GROUP BY c.case_id ORDER BY c.position;
 )sql";
 
-constexpr std::array<std::string_view, 5> state_words = {"pending", "running", "done", "failed", "stopped"};
+constexpr std::array<std::string_view, 6> state_words = {"pending", "running", "done", "failed", "stopped", "spare"};
 
 Value text_or_null(const std::string& text) { return text.empty() ? Value() : Value(text); }
 

@@ -13,7 +13,8 @@
 
 namespace bedload {
 
-enum class CaseState { pending, running, done, failed, stopped };
+/// Spare: a further seed, which waits until the others are known not to be enough.
+enum class CaseState { pending, running, done, failed, stopped, spare };
 std::string_view word(CaseState);
 
 /// One row of `cases`.

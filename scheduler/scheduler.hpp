@@ -37,6 +37,9 @@ struct SchedulerWorld {
   std::function<void(Database&, const std::filesystem::path& case_directory)> on_finished;
   /// Writes what is worth knowing of a case (not of a bed) that failed.
   std::function<void(Database&, const std::filesystem::path& case_directory)> on_failed;
+  /// Ids of the cases that nobody needs as far as the results go that are stored; others may be needed later. Asked for
+  /// whenever a case has finished.
+  std::function<std::vector<std::string>(const Database&)> spares;
   std::function<double()> clock;     // monotonic [s]
   std::function<int()> interrupts;   // how often the user has pressed Ctrl-C so far: InterruptCounter::count
 };
@@ -81,6 +84,7 @@ class Scheduler {
 
   void inspect(Work&);
   void adopt(Work&, const LockHolder&);
+  void set_spares();
   void want_beds();
   void start_what_can_be();
   bool bed_ready(Work&);

@@ -23,6 +23,7 @@ void Scheduler::ended(const Running& r, const JobEnd* end) {
   try {
     if (r.adopted && r.asked) clear_request(work.directory);
     settle(work, completed_attempts(r, end), r.asked);
+    set_spares();
   } catch (const Error& e) {
     work.set_aside = true;
     work.disk_refused = e.kind == ErrorKind::io;

@@ -12,8 +12,8 @@ Progress Scheduler::progress() {
   p.stopping = stopping_;
   p.elapsed = world_.clock() - began_;
   for (const auto& work : works_) {
-    if (!work.wanted) continue;
     const CaseState state = work.entry.state;
+    if (!work.wanted || state == CaseState::spare) continue;
     (work.entry.is_bed ? p.beds : p.cases) += 1;
     (work.entry.is_bed ? p.beds_done : p.done) += state == CaseState::done;
     if (!work.entry.is_bed) p.failed += state == CaseState::failed, p.stopped += state == CaseState::stopped;
@@ -57,7 +57,7 @@ RunOutcome Scheduler::outcome() const {
   RunOutcome o;
   bool disk_refused = false;
   for (const auto& work : works_) {
-    if (!work.wanted || work.entry.is_bed) continue;
+    if (!work.wanted || work.entry.is_bed || work.entry.state == CaseState::spare) continue;
     disk_refused = disk_refused || work.disk_refused;
     o.done += work.entry.state == CaseState::done;
     o.failed += work.entry.state == CaseState::failed;

@@ -24,7 +24,7 @@ void Scheduler::reconcile() {
     work.entry = std::move(entry);
   }
   for (auto& work : works_) inspect(work);
-  want_beds();
+  set_spares();
   transaction.commit();
 }
 
@@ -58,6 +58,18 @@ void Scheduler::adopt(Work& work, const LockHolder& holder) {
   running_.push_back(r);
   set_state(work, CaseState::running);
   sink_->event(fmt::format("{}: at work already, pid {} on {}", work.entry.label, holder.pid, holder.host));
+}
+
+/// What waits becomes spare, or is needed again. A case that was asked for by name is needed.
+void Scheduler::set_spares() {
+  const auto spares = world_.spares(ledger_->database());
+  for (auto& work : works_) {
+    const bool asked = work.wanted && !options_.only.empty();
+    const bool spare = !asked && std::ranges::find(spares, work.entry.id) != spares.end();
+    if (work.entry.state == (spare ? CaseState::pending : CaseState::spare))
+      set_state(work, spare ? CaseState::spare : CaseState::pending);
+  }
+  want_beds();
 }
 
 /// A bed is prepared if an unfinished case lacks it.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/random_stream.hpp"
 #include "solver/bed/bed_surface.hpp"
 #include "solver/bed/incipient_motion.hpp"
 #include "solver/bed/onset_search.hpp"
@@ -19,6 +20,9 @@
 
 namespace bedload {
 namespace {
+
+/// Brackets of many packings say most of their threshold together where no two end at the same levels.
+double own_shift(std::uint64_t seed) { return RandomStream(seed, Stream::onset_level).uniform() - 0.5; }
 
 /// What a coupled step may change, whole, kept to undo it; the record and the sums of the hold are written after it only.
 class StateBefore {
@@ -136,7 +140,8 @@ std::optional<PlannedHold> Experiment::Parts::next_hold(const BedRecord& record)
     return bedload::next_hold({.staircase = scene.drive.levels,
                                .bracket = scene.onset.bracket,
                                .stair = scene.drive.dwell,
-                               .hold = scene.onset.hold},
+                               .hold = scene.onset.hold,
+                               .shift = own_shift(scene.bed.source.seed)},
                               judged_holds(record.holds));
   const std::vector<double>& levels = scene.drive.levels;
   if (ramp_is_over(record, scene.onset, levels.size())) return std::nullopt;

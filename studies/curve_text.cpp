@@ -12,7 +12,7 @@ namespace bedload {
 
 namespace {
 
-/// theta_c, or the bound beyond which it lies.
+/// theta_50, or the bound beyond which it lies.
 std::string shields_or_bound(const ThresholdPoint& p) {
   if (std::isfinite(p.shields)) return fmt::format("{:.4f}", p.shields);
   if (p.status == "censored_below" && std::isfinite(p.upper)) return fmt::format("< {:.4f}", p.upper);
@@ -24,7 +24,9 @@ std::string or_dash(double number, int digits) {
   return std::isfinite(number) ? fmt::format("{:.{}f}", number, digits) : "-";
 }
 
-std::string or_empty(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
+std::string as_csv(const std::string& word) { return word; }
+std::string as_csv(std::uint64_t number) { return fmt::format("{}", number); }
+std::string as_csv(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
 
 std::size_t widest_label(const std::vector<ThresholdPoint>& curve) {
   std::size_t width = 5;
@@ -56,6 +58,13 @@ std::string remarks(const std::vector<ThresholdPoint>& curve) {
 
 }   // namespace
 
+std::string interval_in_words(const ThresholdPoint& p) {
+  if (!std::isfinite(p.interval_lower) && !std::isfinite(p.interval_upper)) return "-";
+  const auto end = [](double bound) { return std::isfinite(bound) ? fmt::format("{:.4f}", bound) : std::string(); };
+  const auto confidence = p.confidence < 0.95 ? fmt::format(" {:.3g}%", 100 * p.confidence) : std::string();
+  return end(p.interval_lower) + "-" + end(p.interval_upper) + confidence;
+}
+
 std::string onset_in_words(const std::vector<ThresholdPoint>& curve) {
   const auto& first = curve.front();
   return fmt::format("onset: {} >= {:g} per surface grain{}, {}; cells {} d high",
@@ -67,13 +76,14 @@ std::string onset_in_words(const std::vector<ThresholdPoint>& curve) {
 
 std::string curve_as_table(const std::vector<ThresholdPoint>& curve) {
   const std::size_t width = widest_label(curve);
-  std::string text = fmt::format("{:<{}} {:>7} {:>7} {:>9} {:>8} {:>8}  {:<14} {:>5}", "scene", width, "Ga", "Re*",
-                                 "theta_c", "lower", "upper", "status", "seeds");
+  std::string text = fmt::format("{:<{}} {:>7} {:>7} {:>9} {:>18} {:>8} {:>8} {:>8}  {:<14} {:>5}", "scene", width,
+                                 "Ga", "Re*", "theta_50", "95 % interval", "lower", "upper", "stop", "status", "seeds");
   for (const PublishedCurve& published : curves_for_tables()) text += fmt::format(" {:>14}", published.name);
   text += '\n';
   for (const ThresholdPoint& p : curve) {
-    text += fmt::format("{:<{}} {:>7.3g} {:>7.3g} {:>9} {:>8} {:>8}  {:<14} {:>5}", p.label, width, p.galileo,
-                        p.reynolds, shields_or_bound(p), or_dash(p.lower, 4), or_dash(p.upper, 4), p.status, p.seeds);
+    text += fmt::format("{:<{}} {:>7.3g} {:>7.3g} {:>9} {:>18} {:>8} {:>8} {:>8}  {:<14} {:>5}", p.label, width,
+                        p.galileo, p.reynolds, shields_or_bound(p), interval_in_words(p), or_dash(p.lower, 4),
+                        or_dash(p.upper, 4), or_dash(p.stop, 4), p.status, p.seeds);
     for (const PublishedCurve& published : curves_for_tables())
       text += fmt::format(" {:>14.4f}", published.shields(p.galileo));
     text += '\n';
@@ -84,44 +94,25 @@ std::string curve_as_table(const std::vector<ThresholdPoint>& curve) {
 }
 
 std::string curve_as_csv(const std::vector<ThresholdPoint>& curve) {
-  std::string text =
-      "label,diameter_m,density_ratio,viscosity_m2_per_s,cell_z_d,criterion,criterion_value,galileo,friction_reynolds,"
-      "shields,shields_lower,"
-      "shields_upper,status,seeds,bracketed,censored_below,censored_above,noisy,parameter_set\n";
-  for (const ThresholdPoint& p : curve)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", p.label, p.diameter,
-                        p.density_ratio, p.viscosity, p.cell_z, p.criterion, p.criterion_value, or_empty(p.galileo),
-                        or_empty(p.reynolds), or_empty(p.shields), or_empty(p.lower), or_empty(p.upper), p.status,
-                        p.seeds, p.bracketed, p.censored_below, p.censored_above, p.noisy, p.set);
-  return text;
+  const ThresholdPoint any;
+  std::string text, separator;
+  const auto cell = [&](const std::string& words) { text += separator + words, separator = ","; };
+  ThresholdPoint::each(any, [&](std::string_view name, const auto&) { cell(std::string(name)); });
+  for (const ThresholdPoint& p : curve) {
+    text += '\n', separator.clear();
+    ThresholdPoint::each(p, [&](std::string_view, const auto& member) { cell(as_csv(member)); });
+  }
+  return text + "\n";
 }
 
 std::string curve_as_json(const std::vector<ThresholdPoint>& curve) {
   auto points = nlohmann::ordered_json::array();
   for (const ThresholdPoint& p : curve) {
-    nlohmann::ordered_json published;
+    nlohmann::ordered_json point;
+    ThresholdPoint::each(p, [&](std::string_view name, const auto& member) { point[std::string(name)] = member; });
     for (const PublishedCurve& known : published_curves())
-      published[std::string(known.name)] = known.shields(p.galileo);
-    points.push_back({{"label", p.label},
-                      {"diameter_m", p.diameter},
-                      {"density_ratio", p.density_ratio},
-                      {"viscosity_m2_per_s", p.viscosity},
-                      {"cell_z_d", p.cell_z},
-                      {"criterion", p.criterion},
-                      {"criterion_value", p.criterion_value},
-                      {"galileo", p.galileo},
-                      {"friction_reynolds", p.reynolds},
-                      {"shields", p.shields},
-                      {"shields_lower", p.lower},
-                      {"shields_upper", p.upper},
-                      {"status", p.status},
-                      {"seeds", p.seeds},
-                      {"bracketed", p.bracketed},
-                      {"censored_below", p.censored_below},
-                      {"censored_above", p.censored_above},
-                      {"noisy", p.noisy},
-                      {"parameter_set", p.set},
-                      {"published", published}});
+      point["published"][std::string(known.name)] = known.shields(p.galileo);
+    points.push_back(std::move(point));
   }
   return points.dump(2) + "\n";   // a number that is not known becomes null
 }

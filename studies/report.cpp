@@ -33,13 +33,14 @@ std::string status_tag(const std::string& status) {
 }
 
 std::string curve_table(const std::vector<ThresholdPoint>& curve) {
-  std::string rows = header_row({"scene", "d [mm]", "s [–]", "ν [mm²/s]", "Ga [–]", "Re* [–]", "θc [–]", "lower",
-                                 "upper", "Soulsby", "seeds", "status"},
-                                1, 10);
+  std::string rows = header_row({"scene", "d [mm]", "s [–]", "ν [mm²/s]", "Ga [–]", "Re* [–]", "θ50 [–]", "interval",
+                                 "lower", "upper", "stop", "Soulsby", "seeds", "status"},
+                                1, 12);
   for (const ThresholdPoint& p : curve)
     rows += "<tr>" + text_cell(p.label) + number_cell(p.diameter * 1e3) + number_cell(p.density_ratio) +
             number_cell(p.viscosity * 1e6) + number_cell(p.galileo, "{:.3g}") + number_cell(p.reynolds, "{:.3g}") +
-            number_cell(p.shields, "{:.4f}") + number_cell(p.lower, "{:.4f}") + number_cell(p.upper, "{:.4f}") +
+            number_cell(p.shields, "{:.4f}") + number_cell(interval_in_words(p)) + number_cell(p.lower, "{:.4f}") +
+            number_cell(p.upper, "{:.4f}") + number_cell(p.stop, "{:.4f}") +
             number_cell(published_curves()[0].shields(p.galileo), "{:.3f}") + number_cell(fmt::format("{}", p.seeds)) +
             status_tag(p.status) + "</tr>\n";
   return html_table(rows);
@@ -50,13 +51,15 @@ std::string threshold_section(const std::vector<ThresholdPoint>& curve, std::siz
   const std::string body = curve.empty() ? threshold_figure(curve) + none
                                          : threshold_figure(curve) + curve_table(curve) + "<p class='caption'>" +
                                                escaped(onset_in_words(curve)) + "</p>\n";
-  return section("Threshold of motion",
-                 "θc = τ<sub>b</sub>/((ρ<sub>p</sub> − ρ<sub>f</sub>) g d) at which the bed begins to move: median "
-                 "over the packing seeds, bars from the lowest "
-                 "to the highest bound of any seed. Open markers with an arrow are one-sided bounds. The published "
-                 "curves are fits to turbulent flow; "
-                 "a laminar model that knows drag alone is expected near the laminar band or above it, not on them.",
-                 body);
+  return section(
+      "Threshold of motion",
+      "θ = τ<sub>b</sub>/((ρ<sub>p</sub> − ρ<sub>f</sub>) g d) above which half of all packings begin to move, by a "
+      "fit to "
+      "the brackets of the seeds. Bars: its 95 % interval where there are six seeds or more, else from the lowest "
+      "to the highest bound of any seed. Open markers with an arrow are one-sided bounds. The published "
+      "curves are fits to turbulent flow; "
+      "a laminar model that knows drag alone is expected near the laminar band or above it, not on them.",
+      body);
 }
 
 /// `figure` of every case, titled with its label; cases without one are left out.

@@ -67,7 +67,9 @@ void draw_point(SvgPlot& plot, const ThresholdPoint& p, Marker shape, std::strin
                        counted(p.seeds, "seed"));
   };
   if (std::isfinite(p.shields)) {
-    if (std::isfinite(p.lower) && std::isfinite(p.upper)) plot.vertical_bar(p.reynolds, p.lower, p.upper, colour);
+    const bool fitted = p.confidence >= 0.95 && std::isfinite(p.interval_lower) && std::isfinite(p.interval_upper);
+    const double from = fitted ? p.interval_lower : p.lower, to = fitted ? p.interval_upper : p.upper;
+    if (std::isfinite(from) && std::isfinite(to)) plot.vertical_bar(p.reynolds, from, to, colour);
     plot.marker({p.reynolds, p.shields}, shape, colour, true,
                 about(fmt::format("= {:.4f}{}", p.shields, bounds_of(p))));
     return;

@@ -178,26 +178,35 @@ CREATE TABLE IF NOT EXISTS provenance (
 ) STRICT;
 
 CREATE TABLE IF NOT EXISTS threshold_curve (       -- per parameter set, over its seeds
-  parameter_set             TEXT PRIMARY KEY,
   label                     TEXT NOT NULL,
   diameter_m                REAL NOT NULL,
   density_ratio             REAL NOT NULL,
   viscosity_m2_per_s        REAL NOT NULL,
   cell_z_d                  REAL NOT NULL,         -- height of the cells, in diameters
+  method                    TEXT NOT NULL,         -- ramp (screening) | bisect
   criterion                 TEXT NOT NULL,         -- flux | moving_fraction
   criterion_value           REAL NOT NULL,
   galileo                   REAL,
   friction_reynolds         REAL,                  -- Re* at shields, or at the one bound there is
-  shields                   REAL,                  -- theta_c, median
-  shields_lower             REAL,                  -- lowest bound; NULL = open
-  shields_upper             REAL,                  -- highest bound; NULL = open
-  status                    TEXT NOT NULL,
+  shields                   REAL,                  -- theta_50: half of all packings move below it
+  shields_16                REAL,                  -- and a deviation of its logarithm below and above; NULL = the
+  shields_84                REAL,                  -- distribution is narrower than the brackets
+  interval_lower            REAL,                  -- where theta_50 lies with this confidence; NULL = open, or one seed
+  interval_upper            REAL,
+  confidence                REAL NOT NULL,         -- 0.95; less with fewer than six seeds
+  shields_lower             REAL,                  -- lowest bound of a seed; NULL = open
+  shields_upper             REAL,                  -- highest bound of a seed; NULL = open
+  stop                      REAL,                  -- theta_stop: below it half of all moving beds come to rest
+  stop_interval_lower       REAL,
+  stop_interval_upper       REAL,
+  hysteresis                REAL,                  -- 1 - stop/shields
+  status                    TEXT NOT NULL,         -- bracketed | censored_below | censored_above | noisy
   seeds                     INTEGER NOT NULL,
   bracketed                 INTEGER NOT NULL,
   censored_below            INTEGER NOT NULL,
   censored_above            INTEGER NOT NULL,
   noisy                     INTEGER NOT NULL,
-  method                    TEXT NOT NULL          -- ramp (screening) | bisect
+  parameter_set             TEXT PRIMARY KEY
 ) STRICT;
 
 CREATE VIEW IF NOT EXISTS transport_curve AS

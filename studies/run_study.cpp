@@ -124,6 +124,7 @@ SchedulerWorld StudyRun::world() const {
   return {.newest = position_of,
           .on_finished = store_results_of,
           .on_failed = store_health_of,
+          .spares = [this](const Database& database) { return spare_seeds(database, cases_, study_.seeds); },
           .clock = seconds,
           .interrupts = InterruptCounter::count};
 }

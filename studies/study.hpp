@@ -9,6 +9,7 @@
 #include "solver/scene.hpp"
 #include "studies/case_inputs.hpp"
 #include "studies/setting.hpp"
+#include "studies/spare_seeds.hpp"
 
 namespace bedload {
 
@@ -35,6 +36,7 @@ struct Study {
   std::vector<Axis> axes;             // in order of study_keys()
   std::vector<Settings> exclusions;   // combinations left out
   RunOptions run;
+  SeedRule seeds;
 };
 
 /// One point of a study.

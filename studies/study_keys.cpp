@@ -113,6 +113,8 @@ constexpr StudyKey keys[] = {
     word("onset.method", "onset", "ramp|bisect|none"),
     number("onset.bracket", Range::positive, "bracket", "0.04"),
     amount("onset.hold", dimension::time, "hold", "100 td"),
+    not_physics(amount("onset.interval", dimension::number, "")),
+    not_physics(count("onset.batch", "", "4")),
     not_physics(word("onset.criterion", "", "flux|moving_fraction", "flux")),
     not_physics(number("onset.value", Range::positive, "", "1e-2")),
 

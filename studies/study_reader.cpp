@@ -179,6 +179,23 @@ StudyContents read_contents(const StudyNode& root, StudyFileKind kind, Problems&
   return Reader(kind, problems).read(root);
 }
 
+SeedRule seed_rule(const StudyContents& contents, Problems& problems) {
+  SeedRule rule;
+  const auto& settings = contents.settings;
+  if (const auto batch = settings.find("onset.batch"); batch != settings.end()) rule.batch = whole(batch->second);
+  const auto found = settings.find("onset.interval");
+  if (found == settings.end()) return rule;
+  const Setting& interval = found->second;
+  rule.interval = std::get<Quantity>(interval.value).value;
+  if (*rule.interval >= 1)
+    problems.add(interval.place, fmt::format("onset.interval: {} is no interval of a threshold", interval.text),
+                 "half its width relative to the threshold, for example \"15 %\"");
+  if (std::ranges::find(contents.axes, "bed.seed", &Axis::key) == contents.axes.end())
+    problems.add(interval.place, "onset.interval: there is one packing, which has no interval",
+                 "bed.seed = { count = 16 }, the most that may be run");
+  return rule;
+}
+
 RunOptions run_options(const Settings& settings, Problems& problems) {
   RunOptions run;
   const auto find = [&](std::string_view path) -> const Setting* {

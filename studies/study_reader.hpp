@@ -20,6 +20,9 @@ struct StudyContents {
 /// What is wrong is reported, and left out.
 StudyContents read_contents(const StudyNode& root, StudyFileKind, Problems&);
 
+/// onset.interval and onset.batch, which ask for an axis of seeds.
+SeedRule seed_rule(const StudyContents&, Problems&);
+
 /// [run]: how, not what.
 RunOptions run_options(const Settings&, Problems&);
 

@@ -141,7 +141,8 @@ std::optional<PlannedHold> next_hold(const OnsetSearchPlan& plan, std::span<cons
   const PlannedHold longer_hold{done.back().purpose, done.back().level, longer * plan.hold, false};
   const Reach reach(plan.staircase, stairs.levels.size());
   const Tried onset = tried(done, HoldPurpose::onset);
-  if (!onset.any()) return PlannedHold{HoldPurpose::onset, stairs.levels.back().level, plan.hold, true};
+  const double first = stairs.levels.back().level * std::pow(reach.step, plan.shift);
+  if (!onset.any()) return PlannedHold{HoldPurpose::onset, first, plan.hold, true};
   if (goes_on(done, HoldPurpose::onset)) return longer_hold;
   if (const auto level = next_level(onset, plan.bracket, reach))
     return PlannedHold{HoldPurpose::onset, *level, plan.hold, true};

@@ -44,6 +44,7 @@ struct OnsetSearchPlan {
   double bracket = 0.04;           // upper/lower - 1 at which a search is over [-]
   double stair = 0;                // how long a step of the staircase is held [s]
   double hold = 0;                 // of onset and stop; an undecided one goes on for twice as long, once [s]
+  double shift = 0;   // of onset's levels against the staircase's, in stairs; a packing's own (-1/2 to 1/2)
 };
 
 /// Nominal Shields numbers between which a bed begins to move, or stops: the highest at which it came to rest below the

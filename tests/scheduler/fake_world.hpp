@@ -176,7 +176,9 @@ class FakeStudy {
           harvested.push_back(d.filename().string());
         },
         [this](Database&, const std::filesystem::path& d) { failures.push_back(d.filename().string()); },
-        [&x] { return x.now; }, [this] { return interrupts; }};
+        [this](const Database&) { return spares ? spares(harvested) : std::vector<std::string>(); },
+        [&x] { return x.now; },
+        [this] { return interrupts; }};
     return Scheduler(ledger, x, listener, world, options).run();
   }
 
@@ -194,6 +196,7 @@ class FakeStudy {
   SchedulerOptions options{2, {}, 60};
   std::vector<CaseEntry> entries;
   std::vector<std::string> harvested, failures;   // directories whose results, and whose failure, were recorded
+  std::function<std::vector<std::string>(const std::vector<std::string>&)> spares;   // of those harvested so far
   int interrupts = 0;
   bool no_results = false;
 

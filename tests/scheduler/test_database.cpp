@@ -71,7 +71,7 @@ TEST_F(StudyDatabase, RunsExactlyOneStatementOfAQuery) {
 }
 
 TEST_F(StudyDatabase, RefusesTheFileOfANewerVersion) {
-  Database(file_, Database::Mode::write).execute("PRAGMA user_version = 4");
+  Database(file_, Database::Mode::write).execute("PRAGMA user_version = 99");
   EXPECT_EQ(refusal([&] { Database(file_, Database::Mode::write); }), ErrorKind::corrupt);
   EXPECT_EQ(refusal([&] { Database(file_, Database::Mode::query); }), ErrorKind::corrupt);
 }

@@ -53,6 +53,44 @@ TEST(Scheduler, RunsOnlyTheCasesThatWereAskedFor) {
   EXPECT_EQ(study.executor.started, (Names{"bed", "b"}));
 }
 
+/// d is needed once a, b and c are done, e never.
+Names spares_of_three(const Names& harvested) { return harvested.size() < 3 ? Names{"d", "e"} : Names{"e"}; }
+
+TEST(Scheduler, LeavesSpareCasesAndTheirBedsUntilTheyAreNeeded) {
+  FakeStudy study;
+  study.spares = spares_of_three;
+  for (const char* id : {"a", "b", "c"}) study.add_case(id);
+  for (const char* id : {"d", "e"}) study.add_bed(std::string("bed of ") + id);
+  for (const char* id : {"d", "e"}) study.add_case(id, std::string("bed of ") + id);
+  const auto outcome = study.run();
+  EXPECT_EQ(study.executor.started, (Names{"a", "b", "c", "bed of d", "d"}));
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.done, 4);
+  EXPECT_EQ(outcome.left, 0);
+  EXPECT_EQ(study.listener.last.cases, 4);
+  EXPECT_EQ(study.state_of("e"), "spare");
+}
+
+TEST(Scheduler, StartsASpareCaseThatALaterRunNeeds) {
+  FakeStudy study;
+  study.spares = spares_of_three;
+  for (const char* id : {"a", "b", "c", "d", "e"}) study.add_case(id);
+  study.run();
+  study.spares = nullptr;
+  EXPECT_EQ(study.run().done, 5);
+  EXPECT_EQ(study.executor.started, Names{"e"});
+}
+
+TEST(Scheduler, RunsASpareCaseThatIsAskedForByName) {
+  FakeStudy study;
+  study.spares = spares_of_three;
+  for (const char* id : {"a", "b", "c", "d", "e"}) study.add_case(id);
+  study.options.only = {"e"};
+  EXPECT_EQ(study.run().done, 1);
+  EXPECT_EQ(study.executor.started, Names{"e"});
+  EXPECT_EQ(study.state_of("d"), "spare");
+}
+
 TEST(Scheduler, PreparesASharedBedOnceAndLinksItIntoItsCases) {
   FakeStudy study;
   study.add_case("a", "bed");

@@ -33,8 +33,9 @@ class ReportTest : public ::testing::Test {
   ReportTest() { create_result_tables(database_); }
   void add_point(const std::string& set, const char* status, Value shields, Value lower, Value upper) {
     database_.execute(
-        "INSERT INTO threshold_curve VALUES (?,?,5e-4,2,1e-5,0.5,'flux',0.01,3.5,1.4,?,?,?,?,1,1,0,0,0,'ramp')",
-        {set, set, shields, lower, upper, std::string(status)});
+        "INSERT INTO threshold_curve VALUES (?,5e-4,2,1e-5,0.5,'ramp','flux',0.01,3.5,1.4,?,NULL,NULL,NULL,NULL,0,?,?,"
+        "NULL,NULL,NULL,NULL,?,1,1,0,0,0,?)",
+        {set, shields, lower, upper, std::string(status), set});
   }
   void add_case() {
     database_.execute(

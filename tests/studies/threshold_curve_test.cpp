@@ -1,4 +1,4 @@
-// Seeds to points: medians, extremes, censoring; and the same text for the same study.
+// Seeds to points: fit, extremes, censoring; and the same text for the same study.
 #include "studies/threshold_curve.hpp"
 
 #include <gtest/gtest.h>
@@ -21,14 +21,15 @@ class ThresholdCurveTest : public ::testing::Test {
   ThresholdCurveTest() { create_result_tables(database_); }
 
   void add_seed(const std::string& set, int seed, double diameter, const std::string& status, double shields,
-                double lower, double upper) {
+                double lower, double upper, std::pair<double, double> stop = {open_end, open_end}) {
     const std::string id = set + "-" + std::to_string(seed);
     database_.execute(
         "INSERT INTO scenes VALUES "
         "(?,?,?,?,?,?,0.05,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,?,'di_felice',1,1,1,0)",
         {id, id, set, "label-" + set, std::int64_t{seed}, diameter, cell_z});
-    database_.execute("INSERT INTO thresholds VALUES (?,'flux',0.01,1,?,?,?,?,'ramp',NULL,NULL)",
-                      {id, status, real_or_null(shields), real_or_null(lower), real_or_null(upper)});
+    database_.execute("INSERT INTO thresholds VALUES (?,'flux',0.01,1,?,?,?,?,'ramp',?,?)",
+                      {id, status, real_or_null(shields), real_or_null(lower), real_or_null(upper),
+                       real_or_null(stop.first), real_or_null(stop.second)});
     update_threshold_curve(database_);
   }
   ThresholdPoint only_point() const {
@@ -42,37 +43,73 @@ class ThresholdCurveTest : public ::testing::Test {
   Database database_{directory_.path() / "study.db", Database::Mode::write};
 };
 
-TEST_F(ThresholdCurveTest, TakesTheMedianSeedAndTheExtremesOfTheirBounds) {
+TEST_F(ThresholdCurveTest, HoldsOneSeedWithinItsBracketAndNamesNoInterval) {
   add_seed("a", 1, 5e-4, "bracketed", 0.16, 0.15, 0.18);
-  add_seed("a", 2, 5e-4, "bracketed", 0.20, 0.19, 0.22);
-  add_seed("a", 3, 5e-4, "bracketed", 0.17, 0.13, 0.19);
   const ThresholdPoint point = only_point();
-  EXPECT_EQ(point.shields, 0.17);
+  EXPECT_DOUBLE_EQ(point.shields, std::sqrt(0.15 * 0.18));
+  EXPECT_EQ(point.lower, 0.15);
+  EXPECT_EQ(point.upper, 0.18);
+  EXPECT_EQ(point.confidence, 0);
+  EXPECT_TRUE(std::isnan(point.interval_lower));
+  EXPECT_TRUE(std::isnan(point.shields_16));
+  EXPECT_TRUE(std::isnan(point.stop));
+}
+
+/// The fit is threshold_fit's, whatever the order in which the seeds finished.
+TEST_F(ThresholdCurveTest, FitsTheBracketsOfTheSeeds) {
+  const std::vector<SeedBracket> brackets{{1, 0.15, 0.16}, {2, 0.19, 0.20}, {3, 0.13, 0.14}, {4, 0.16, 0.17},
+                                          {5, 0.17, 0.18}, {6, 0.15, 0.16}, {7, 0.14, 0.15}};
+  for (const SeedBracket& b :
+       {brackets[4], brackets[0], brackets[6], brackets[1], brackets[2], brackets[5], brackets[3]})
+    add_seed("a", static_cast<int>(b.seed), 5e-4, "bracketed", 0.16, b.lower, b.upper);
+  const ThresholdPoint point = only_point();
+  const ThresholdFit fit = fit_threshold(brackets);
+  EXPECT_EQ(point.shields, fit.theta_50);
+  EXPECT_EQ(point.shields_16, fit.theta_16);
+  EXPECT_EQ(point.shields_84, fit.theta_84);
+  EXPECT_EQ(point.interval_lower, interval_of_threshold(brackets).lower);
+  EXPECT_EQ(point.interval_upper, interval_of_threshold(brackets).upper);
+  EXPECT_EQ(point.confidence, 0.95);
   EXPECT_EQ(point.lower, 0.13);
-  EXPECT_EQ(point.upper, 0.22);
-  EXPECT_EQ(point.status, "bracketed");
-  EXPECT_EQ(point.seeds, 3u);
-  EXPECT_DOUBLE_EQ(point.reynolds, std::sqrt(0.17) * 3.5);
+  EXPECT_EQ(point.upper, 0.20);
+  EXPECT_EQ(point.seeds, 7u);
+  EXPECT_DOUBLE_EQ(point.reynolds, std::sqrt(fit.theta_50) * 3.5);
 }
 
-TEST_F(ThresholdCurveTest, AveragesTheTwoMiddleSeedsOfAnEvenNumber) {
-  add_seed("a", 1, 5e-4, "bracketed", 0.16, 0.15, 0.18);
-  add_seed("a", 2, 5e-4, "bracketed", 0.20, 0.19, 0.22);
-  EXPECT_DOUBLE_EQ(only_point().shields, 0.18);
+TEST_F(ThresholdCurveTest, FitsAlsoWhereMovingBedsStopAndHowFarBelow) {
+  for (int seed = 1; seed <= 6; ++seed) add_seed("a", seed, 5e-4, "bracketed", 0.16, 0.16, 0.17, {0.14, 0.15});
+  const ThresholdPoint point = only_point();
+  EXPECT_DOUBLE_EQ(point.stop, std::sqrt(0.14 * 0.15));
+  EXPECT_EQ(point.stop_interval_lower, 0.14);
+  EXPECT_EQ(point.stop_interval_upper, 0.15);
+  EXPECT_NEAR(point.hysteresis, 1 - std::sqrt(0.14 * 0.15 / (0.16 * 0.17)), 1e-15);
 }
 
-TEST_F(ThresholdCurveTest, KeepsAMedianButOpensTheBoundWhenOneSeedIsCensored) {
+TEST_F(ThresholdCurveTest, OpensTheBoundWhenOneSeedIsCensored) {
   add_seed("a", 1, 5e-4, "bracketed", 0.16, 0.15, 0.18);
   add_seed("a", 2, 5e-4, "bracketed", 0.20, 0.19, 0.22);
   add_seed("a", 3, 5e-4, "censored_above", open_end, 0.44, open_end);
   const ThresholdPoint point = only_point();
-  EXPECT_EQ(point.shields, 0.20);
+  EXPECT_EQ(point.status, "bracketed");
+  EXPECT_GT(point.shields, 0.18);
   EXPECT_EQ(point.lower, 0.15);
   EXPECT_TRUE(std::isnan(point.upper));
   EXPECT_EQ(point.censored_above, 1u);
 }
 
-TEST_F(ThresholdCurveTest, IsOneSidedWhenTheMedianSeedIsCensored) {
+/// Noise of a search: what moved was measured to be weaker than what rested.
+TEST_F(ThresholdCurveTest, TakesBoundsInTheWrongOrderForAllThatTheRunKnows) {
+  add_seed("a", 1, 5e-4, "noisy", 0.16, 0.162, 0.158);
+  const ThresholdPoint point = only_point();
+  EXPECT_DOUBLE_EQ(point.shields, std::sqrt(0.158 * 0.162));
+  EXPECT_EQ(point.noisy, 1u);
+  EXPECT_EQ(seed_bracket(3, 0.15, 0.15).lower, 0.15);
+  EXPECT_GT(seed_bracket(3, 0.15, 0.15).upper, 0.15);
+  EXPECT_EQ(seed_bracket(3, open_end, 0.15).lower, 0);
+  EXPECT_TRUE(std::isinf(seed_bracket(3, 0.15, open_end).upper));
+}
+
+TEST_F(ThresholdCurveTest, IsOneSidedWhenEverySeedIsCensored) {
   add_seed("a", 1, 5e-4, "censored_above", open_end, 0.44, open_end);
   add_seed("b", 1, 6e-4, "censored_below", open_end, open_end, 0.06);
   const auto curve = threshold_curve(database_);
@@ -98,22 +135,30 @@ TEST_F(ThresholdCurveTest, PrintsTheSameBytesInWhateverOrderTheCasesFinished) {
   add_seed("b", 1, 6e-4, "bracketed", 0.2, 0.19, 0.22);
   add_seed("a", 2, 5e-4, "bracketed", 0.1 + 0.2, 0.13, 0.4);
   add_seed("a", 1, 5e-4, "censored_below", open_end, open_end, 0.06);
-  const std::string csv = curve_as_csv(threshold_curve(database_));
-  EXPECT_EQ(csv,
-            "label,diameter_m,density_ratio,viscosity_m2_per_s,cell_z_d,criterion,criterion_value,galileo,friction_"
-            "reynolds,shields,shields_lower,shields_upper,"
-            "status,seeds,bracketed,censored_below,censored_above,noisy,parameter_set\n"
-            "label-a,0.0005,2,1e-05,0.5,flux,0.01,3.5,2.2135943621178655,,,0.4,censored_below,2,1,1,0,0,a\n"
-            "label-b,0.0006,2,1e-05,0.4166666666666667,flux,0.01,3.5,1.5652475842498528,0.2,0.19,0.22,bracketed,1,1,0,"
-            "0,0,b\n");
+  const auto csv_of = [&] { return curve_as_csv(threshold_curve(database_)); };
+  const std::string csv = csv_of();
+  database_.execute("DELETE FROM scenes");
+  database_.execute("DELETE FROM thresholds");
+  add_seed("a", 1, 5e-4, "censored_below", open_end, open_end, 0.06);
+  add_seed("a", 2, 5e-4, "bracketed", 0.1 + 0.2, 0.13, 0.4);
+  add_seed("b", 1, 6e-4, "bracketed", 0.2, 0.19, 0.22);
+  EXPECT_EQ(csv, csv_of());
+  EXPECT_TRUE(csv.starts_with(
+      "label,diameter_m,density_ratio,viscosity_m2_per_s,cell_z_d,method,criterion,criterion_value,galileo,"
+      "friction_reynolds,shields,shields_16,shields_84,interval_lower,interval_upper,confidence,shields_lower,"
+      "shields_upper,stop,stop_interval_lower,stop_interval_upper,hysteresis,status,seeds,bracketed,censored_below,"
+      "censored_above,noisy,parameter_set\n"
+      "label-a,0.0005,2,1e-05,0.5,ramp,flux,0.01,3.5,"))
+      << csv;
+  EXPECT_NE(csv.find(",,0.4,,,,,bracketed,2,1,1,0,0,a\nlabel-b,"), csv.npos) << csv;
 }
 
 TEST_F(ThresholdCurveTest, WritesNumbersThatReadBackToTheSameBits) {
-  add_seed("a", 1, 5e-4, "bracketed", 0.1 + 0.2, 0.1, 1.0 / 3);
+  add_seed("a", 1, 5e-4, "bracketed", 0.2, 0.1 + 0.2, 1.0 / 3);
   const auto json = nlohmann::json::parse(curve_as_json(threshold_curve(database_)));
-  EXPECT_EQ(json[0]["shields"].get<double>(), 0.1 + 0.2);
+  EXPECT_EQ(json[0]["shields_lower"].get<double>(), 0.1 + 0.2);
   EXPECT_EQ(json[0]["shields_upper"].get<double>(), 1.0 / 3);
-  EXPECT_NE(curve_as_csv(threshold_curve(database_)).find(",0.30000000000000004,0.1,0.3333333333333333,"),
+  EXPECT_NE(curve_as_csv(threshold_curve(database_)).find(",0.30000000000000004,0.3333333333333333,"),
             std::string::npos);
 }
 

@@ -53,6 +53,22 @@ Bed sharp(double begins, double stops) {
   };
 }
 
+/// Eight gaps of a bracket of 4 % make a stair of 1.2: a sixteenth of it puts each level between two others.
+TEST(OnsetSearch, TriesLevelsOfItsOwnWhereItIsShifted) {
+  for (const double begins : {0.0999, 0.1411, 0.2}) {
+    OnsetSearchPlan shifted = plan_of();
+    shifted.shift = 1.0 / 16;
+    const LevelBracket a = search(plan_of(), sharp(begins, begins)).onset(),
+                       b = search(shifted, sharp(begins, begins)).onset();
+    for (const LevelBracket& found : {a, b}) {
+      EXPECT_LT(found.lower, begins);
+      EXPECT_GE(found.upper, begins);
+    }
+    EXPECT_NEAR(std::abs(std::log(a.lower / b.lower)), std::log(1.2) / 16, 1e-9);
+    EXPECT_NEAR(std::abs(std::log(a.upper / b.upper)), std::log(1.2) / 16, 1e-9);
+  }
+}
+
 TEST(OnsetSearch, BracketsTheLevelsAtWhichABedBeginsToMoveAndStops) {
   for (const double bracket : {0.02, 0.04, 0.1})
     for (const double begins : {0.0612, 0.0999, 0.1, 0.1411, 0.3333})
