@@ -66,14 +66,15 @@ std::vector<BedView> views(const std::vector<CaseEntry>& cases, const std::files
 
 int curve_command(const StudyOptions& options) {
   const auto place = find_study(options.study, options.out);
-  const auto curve = threshold_curve(open_results(place));
+  const auto results = open_results(place);
+  const auto curve = threshold_curve(results);
   if (curve.empty())
     log_note(seeks_onset(read_study(place.file)) ? "no case that seeks an onset has finished yet"
                                                  : "no case of this study has a ramp: there is no threshold to show");
   if (curve.empty() && options.form == Form::table) return 0;
   fmt::print("{}", options.form == Form::csv    ? curve_as_csv(curve)
                    : options.form == Form::json ? curve_as_json(curve)
-                                                : curve_as_table(curve));
+                                                : curve_as_table(curve, error_budget(results)));
   return 0;
 }
 

@@ -24,6 +24,9 @@ std::string or_dash(double number, int digits) {
   return std::isfinite(number) ? fmt::format("{:.{}f}", number, digits) : "-";
 }
 
+/// Of an error of either sign.
+std::string percent_or_dash(double part) { return std::isfinite(part) ? fmt::format("+-{:.2g}%", 100 * part) : "-"; }
+
 std::string as_csv(const std::string& word) { return word; }
 std::string as_csv(std::uint64_t number) { return fmt::format("{}", number); }
 std::string as_csv(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
@@ -74,21 +77,23 @@ std::string onset_in_words(const std::vector<ThresholdPoint>& curve) {
                      range_of(curve, &ThresholdPoint::cell_z));
 }
 
-std::string curve_as_table(const std::vector<ThresholdPoint>& curve) {
+std::string curve_as_table(const std::vector<ThresholdPoint>& curve, const std::vector<BudgetEntry>& budget) {
   const std::size_t width = widest_label(curve);
-  std::string text = fmt::format("{:<{}} {:>7} {:>7} {:>9} {:>18} {:>8} {:>8} {:>8}  {:<14} {:>5}", "scene", width,
-                                 "Ga", "Re*", "theta_50", "95 % interval", "lower", "upper", "stop", "status", "seeds");
+  std::string text =
+      fmt::format("{:<{}} {:>7} {:>7} {:>9} {:>18} {:>8} {:>8} {:>8} {:>7}  {:<14} {:>5}", "scene", width, "Ga", "Re*",
+                  "theta_50", "95 % interval", "lower", "upper", "stop", "syst.", "status", "seeds");
   for (const PublishedCurve& published : curves_for_tables()) text += fmt::format(" {:>14}", published.name);
   text += '\n';
   for (const ThresholdPoint& p : curve) {
-    text += fmt::format("{:<{}} {:>7.3g} {:>7.3g} {:>9} {:>18} {:>8} {:>8} {:>8}  {:<14} {:>5}", p.label, width,
+    text += fmt::format("{:<{}} {:>7.3g} {:>7.3g} {:>9} {:>18} {:>8} {:>8} {:>8} {:>7}  {:<14} {:>5}", p.label, width,
                         p.galileo, p.reynolds, shields_or_bound(p), interval_in_words(p), or_dash(p.lower, 4),
-                        or_dash(p.upper, 4), or_dash(p.stop, 4), p.status, p.seeds);
+                        or_dash(p.upper, 4), or_dash(p.stop, 4), percent_or_dash(p.systematic), p.status, p.seeds);
     for (const PublishedCurve& published : curves_for_tables())
       text += fmt::format(" {:>14.4f}", published.shields(p.galileo));
     text += '\n';
   }
-  if (!curve.empty()) text += onset_in_words(curve) + "\n" + remarks(curve);
+  if (!curve.empty())
+    text += onset_in_words(curve) + "\nsystematic: " + budget_in_words(budget) + "\n" + remarks(curve);
   return text + fmt::format("laminar beds, measured: {} +- {} ({})\n", laminar_band.shields, laminar_band.half_width,
                             laminar_band.source);
 }

@@ -46,11 +46,13 @@ std::string curve_table(const std::vector<ThresholdPoint>& curve) {
   return html_table(rows);
 }
 
-std::string threshold_section(const std::vector<ThresholdPoint>& curve, std::size_t finished) {
+std::string threshold_section(const std::vector<ThresholdPoint>& curve, const std::vector<BudgetEntry>& budget,
+                              std::size_t finished) {
   const auto none = finished == 0 ? "<p>No case has finished yet.</p>" : "<p>No finished case has a ramp.</p>";
-  const std::string body = curve.empty() ? threshold_figure(curve) + none
-                                         : threshold_figure(curve) + curve_table(curve) + "<p class='caption'>" +
-                                               escaped(onset_in_words(curve)) + "</p>\n";
+  const std::string body =
+      curve.empty() ? threshold_figure(curve) + none
+                    : threshold_figure(curve) + curve_table(curve) + "<p class='caption'>" +
+                          escaped(onset_in_words(curve) + "; systematic: " + budget_in_words(budget)) + "</p>\n";
   return section(
       "Threshold of motion",
       "θ = τ<sub>b</sub>/((ρ<sub>p</sub> − ρ<sub>f</sub>) g d) above which half of all packings begin to move, by a "
@@ -236,9 +238,10 @@ std::string report_html(const Database& database, const ReportRequest& request) 
              "bedload</title><style>{1}</style></head>\n<body><main>\n<header><h1>{0}</h1><p>{2}{3}{4}</p></header>\n",
              title, report_style, summary(curve, cases.size()), request.written.empty() ? "" : " · ",
              escaped(request.written)) +
-         threshold_section(curve, cases.size()) + ramp_section(database, cases) + bed_section(request.beds) +
-         history_section(database, cases) + profile_section(database, cases) + model_section(database) +
-         health_section(database) + provenance_section(database, request) + "</main></body></html>\n";
+         threshold_section(curve, error_budget(database), cases.size()) + ramp_section(database, cases) +
+         bed_section(request.beds) + history_section(database, cases) + profile_section(database, cases) +
+         model_section(database) + health_section(database) + provenance_section(database, request) +
+         "</main></body></html>\n";
 }
 
 }   // namespace bedload

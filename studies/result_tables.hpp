@@ -177,6 +177,22 @@ CREATE TABLE IF NOT EXISTS provenance (
   state_digest              TEXT NOT NULL          -- of the final state: the same study gives the same
 ) STRICT;
 
+CREATE TABLE IF NOT EXISTS variations (            -- cases that differ from one of the study in one respect
+  case_id                   TEXT PRIMARY KEY,
+  name                      TEXT NOT NULL,         -- bracket | hold | mesh | area: of the error budget
+  base_id                   TEXT NOT NULL          -- the case of the study
+) STRICT;
+
+CREATE VIEW IF NOT EXISTS error_budget AS          -- per pair: theta_c of the variation relative to that of its case
+  SELECT v.name AS source, b.label, b.shields AS shields_base, p.shields AS shields_pair,
+         p.shields / b.shields - 1 AS difference,
+         (b.shields_upper - b.shields_lower) / (b.shields_upper + b.shields_lower)
+           + (p.shields_upper - p.shields_lower) / (p.shields_upper + p.shields_lower) AS uncertainty,
+         v.base_id, v.case_id
+  FROM variations v
+    JOIN (SELECT * FROM thresholds JOIN scenes USING (case_id) WHERE decides) b ON b.case_id = v.base_id
+    JOIN (SELECT * FROM thresholds WHERE decides) p ON p.case_id = v.case_id;
+
 CREATE TABLE IF NOT EXISTS threshold_curve (       -- per parameter set, over its seeds
   label                     TEXT NOT NULL,
   diameter_m                REAL NOT NULL,
@@ -200,6 +216,7 @@ CREATE TABLE IF NOT EXISTS threshold_curve (       -- per parameter set, over it
   stop_interval_lower       REAL,
   stop_interval_upper       REAL,
   hysteresis                REAL,                  -- 1 - stop/shields
+  systematic                REAL,                  -- relative, of the pairs of error_budget; NULL = mesh not tested
   status                    TEXT NOT NULL,         -- bracketed | censored_below | censored_above | noisy
   seeds                     INTEGER NOT NULL,
   bracketed                 INTEGER NOT NULL,

@@ -24,6 +24,7 @@
 #include "studies/case_file.hpp"
 #include "studies/case_identity.hpp"
 #include "studies/case_warnings.hpp"
+#include "studies/error_budget.hpp"
 #include "studies/plan.hpp"
 #include "studies/results.hpp"
 #include "studies/study_file.hpp"
@@ -179,6 +180,7 @@ void StudyRun::enrol(Ledger& ledger, const Plan& plan) const {
   for (const auto& c : plan.cases) entries.push_back(case_entry(c.one));
   ledger.enrol(entries);
   for (const auto& c : plan.cases) store_models(ledger.database(), c.one.id, c.one.scene);
+  store_variations(ledger.database(), cases_);
   for (const auto& c : plan.cases)
     if (c.results_change) ledger.set_state(c.one.id, CaseState::pending);   // harvested again
   update_threshold_curve(ledger.database());

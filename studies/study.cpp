@@ -15,6 +15,7 @@
 #include "studies/case_warnings.hpp"
 #include "studies/setting_value.hpp"
 #include "studies/study_keys.hpp"
+#include "studies/variation.hpp"
 
 namespace bedload {
 
@@ -168,10 +169,10 @@ bool is_strict(const Settings& settings) {
   return found != settings.end() && std::get<std::string>(found->second.value) == "true";
 }
 
-Case make_case(const Study& study, const Choice& choice, CaseInputs inputs) {
+Case make_case(const std::string& set_label, CaseInputs inputs) {
   Case made;
   made.id = case_id(inputs), made.set = parameter_set_id(inputs), made.bed_id = bed_id(inputs);
-  made.set_label = label_of(study, choice);
+  made.set_label = set_label;
   made.label = made.set_label;
   if (inputs.has("bed.seed")) {
     made.seed = static_cast<std::uint64_t>(inputs.number("bed.seed"));
@@ -193,31 +194,72 @@ void check_twins(const std::vector<Case>& cases, Problems& problems) {
   }
 }
 
+/// Makes cases one by one, and gathers what is wrong with them.
+class Unfolding {
+ public:
+  Unfolding(const Study& study, const TableReader& read_table)
+      : study_(study), read_table_(read_table), problems_(study.file.string()), out_of_range_(study) {}
+
+  std::vector<Case> all();
+
+ private:
+  void add(const Choice&, const Variation* = nullptr);
+  void vary_first(const Choice&);
+
+  const Study& study_;
+  const TableReader& read_table_;
+  Problems problems_;
+  RangeProblems out_of_range_;
+  std::vector<Case> cases_;
+  std::set<std::string> placed_;   // beds whose grains have been placed
+};
+
+/// A case of the axes, or a variation of the first of them.
+void Unfolding::add(const Choice& choice, const Variation* variation) {
+  auto settings = settings_of(study_, choice);
+  if (variation)
+    for (const auto& [key, setting] : variation->changes) settings[key] = setting;
+  auto inputs = resolve(settings, study_.file.parent_path(), problems_, read_table_);
+  if (!problems_.empty()) return;
+  auto one = make_case(label_of(study_, choice) + (variation ? "-" + variation->name : ""), std::move(inputs));
+  if (variation) one.variation = variation->name, one.base_id = cases_.front().id;
+  add_problems(problems_of(one.scene), settings, problems_);
+  if (problems_.empty() && is_strict(study_.settings)) out_of_range_.add(one, choice, settings);
+  if (problems_.empty() && placed_.insert(one.bed_id.empty() ? one.id : one.bed_id).second)
+    check_placing(one.scene, settings, problems_);
+  cases_.push_back(std::move(one));
+}
+
+/// One packing pays for all.
+void Unfolding::vary_first(const Choice& first) {
+  const auto pairs = budget_pairs(settings_of(study_, first), study_.budget);
+  if (!pairs.empty() && cases_.front().scene.onset.method != Onset::Method::bisect)
+    problems_.add(place_in(study_.settings, "onset.budget"),
+                  "onset.budget: a ramp is a screening and has no error budget", "onset.method = \"bisect\"");
+  for (const auto& pair : pairs)
+    if (problems_.empty()) add(first, &pair);
+}
+
+std::vector<Case> Unfolding::all() {
+  const auto choices = product(study_.axes);
+  const Choice* first = nullptr;
+  for (const auto& choice : choices) {
+    if (excluded(study_, choice)) continue;
+    if (!first) first = &choice;
+    add(choice);
+  }
+  if (first && problems_.empty()) vary_first(*first);
+  if (problems_.empty()) out_of_range_.report(problems_);
+  check_twins(cases_, problems_);
+  if (problems_.empty() && cases_.empty()) problems_.add({}, "every case is excluded", "remove an [[exclude]]");
+  problems_.throw_if_any();
+  return std::move(cases_);
+}
+
 }   // namespace
 
 std::vector<Case> unfold(const Study& study, const TableReader& read_table) {
-  Problems problems(study.file.string());
-  std::vector<Case> cases;
-  std::set<std::string> placed;
-  const bool strict = is_strict(study.settings);
-  RangeProblems out_of_range(study);
-  for (const auto& choice : product(study.axes)) {
-    if (excluded(study, choice)) continue;
-    const auto settings = settings_of(study, choice);
-    auto inputs = resolve(settings, study.file.parent_path(), problems, read_table);
-    if (!problems.empty()) continue;
-    auto one = make_case(study, choice, std::move(inputs));
-    add_problems(problems_of(one.scene), settings, problems);
-    if (problems.empty() && strict) out_of_range.add(one, choice, settings);
-    if (problems.empty() && placed.insert(one.bed_id.empty() ? one.id : one.bed_id).second)
-      check_placing(one.scene, settings, problems);
-    cases.push_back(std::move(one));
-  }
-  if (problems.empty()) out_of_range.report(problems);
-  check_twins(cases, problems);
-  if (problems.empty() && cases.empty()) problems.add({}, "every case is excluded", "remove an [[exclude]]");
-  problems.throw_if_any();
-  return cases;
+  return Unfolding(study, read_table).all();
 }
 
 bool seeks_onset(const Study& study) {

@@ -37,6 +37,7 @@ struct Study {
   std::vector<Settings> exclusions;   // combinations left out
   RunOptions run;
   SeedRule seeds;
+  std::vector<std::string> budget;   // pairs of the error budget, for one packing
 };
 
 /// One point of a study.
@@ -46,12 +47,14 @@ struct Case {
   std::string set;     // digest without the seed, and the label without it
   std::string set_label;
   std::uint64_t seed = 1;
+  std::string variation;   // what it changes of case `base_id`; both empty in a case of the axes
+  std::string base_id;
   std::string bed_id;   // of the bed it starts on; empty when its grains are not settled first
   CaseInputs inputs;
   Scene scene;
 };
 
-/// The cases of a study: product of its axes without the exclusions, each resolved, validated and named. Reports all
+/// The cases of a study: product of its axes without the exclusions, and the variations of its first, each resolved, validated and named. Reports all
 /// problems of all cases at once (Error study_invalid).
 std::vector<Case> unfold(const Study&, const TableReader& = read_text);
 

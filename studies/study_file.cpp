@@ -111,13 +111,21 @@ Study parse_study(const std::string& text, const std::string& name) {
   auto contents = read_contents(root, StudyFileKind::study, problems);
   const auto run = run_options(contents.settings, problems);
   const auto seeds = seed_rule(contents, problems);
+  auto budget = budget_wanted(contents.settings);
   const auto title = contents.settings.find("name");
   const bool named = title != contents.settings.end();
   if (named) check_name(title->second, problems);
   problems.throw_if_any();
   const auto given = named ? title->second.text : std::filesystem::path(name).stem().string();
-  return {given, name, text, std::move(contents.settings), std::move(contents.axes), std::move(contents.exclusions),
-          run,   seeds};
+  return {given,
+          name,
+          text,
+          std::move(contents.settings),
+          std::move(contents.axes),
+          std::move(contents.exclusions),
+          run,
+          seeds,
+          std::move(budget)};
 }
 
 CaseFile parse_case_file(const std::string& text, const std::string& name) {

@@ -115,6 +115,7 @@ constexpr StudyKey keys[] = {
     amount("onset.hold", dimension::time, "hold", "100 td"),
     not_physics(amount("onset.interval", dimension::number, "")),
     not_physics(count("onset.batch", "", "4")),
+    {.path = "onset.budget", .kind = Kind::words, .choices = "bracket|hold|mesh|area", .physics = false},
     not_physics(word("onset.criterion", "", "flux|moving_fraction", "flux")),
     not_physics(number("onset.value", Range::positive, "", "1e-2")),
 

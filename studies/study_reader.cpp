@@ -196,6 +196,13 @@ SeedRule seed_rule(const StudyContents& contents, Problems& problems) {
   return rule;
 }
 
+std::vector<std::string> budget_wanted(const Settings& settings) {
+  const auto found = settings.find("onset.budget");
+  if (found == settings.end()) return {};
+  if (const auto* words = std::get_if<std::vector<std::string>>(&found->second.value)) return *words;
+  return {"bracket", "hold", "mesh", "area"};
+}
+
 RunOptions run_options(const Settings& settings, Problems& problems) {
   RunOptions run;
   const auto find = [&](std::string_view path) -> const Setting* {

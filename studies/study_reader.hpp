@@ -23,6 +23,9 @@ StudyContents read_contents(const StudyNode& root, StudyFileKind, Problems&);
 /// onset.interval and onset.batch, which ask for an axis of seeds.
 SeedRule seed_rule(const StudyContents&, Problems&);
 
+/// onset.budget; "auto" is all pairs.
+std::vector<std::string> budget_wanted(const Settings&);
+
 /// [run]: how, not what.
 RunOptions run_options(const Settings&, Problems&);
 

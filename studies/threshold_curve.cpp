@@ -9,6 +9,7 @@
 
 #include "solver/dimensionless.hpp"
 #include "studies/database_values.hpp"
+#include "studies/error_budget.hpp"
 
 namespace bedload {
 
@@ -98,6 +99,7 @@ Rows seeds_in_order(const Database& database) {
       "SELECT s.parameter_set, s.set_label, s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.galileo, "
       "s.cell_z_m / s.diameter_m, t.criterion, t.value, t.method, s.seed, t.status, t.shields_lower, t.shields_upper, "
       "t.stop_lower, t.stop_upper FROM scenes s JOIN thresholds t USING (case_id) WHERE t.decides = 1 AND {} "
+      "AND case_id NOT IN (SELECT case_id FROM variations) "
       "ORDER BY s.diameter_m, s.density_ratio, s.viscosity_m2_per_s, s.parameter_set, s.seed",
       in_study(database)));
 }
@@ -124,7 +126,11 @@ std::vector<ThresholdPoint> curve_from_thresholds(const Database& database) {
     seeds.back().push_back({static_cast<std::uint64_t>(std::get<std::int64_t>(row[10])), text_in(row[11]),
                             number_in(row[12]), number_in(row[13]), number_in(row[14]), number_in(row[15])});
   }
-  for (std::size_t n = 0; n < curve.size(); ++n) summarise(seeds[n], curve[n]);
+  const double systematic = systematic_error(error_budget(database));
+  for (std::size_t n = 0; n < curve.size(); ++n) {
+    summarise(seeds[n], curve[n]);
+    curve[n].systematic = systematic;
+  }
   return curve;
 }
 

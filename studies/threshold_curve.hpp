@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scheduler/database.hpp"
+#include "studies/error_budget.hpp"
 #include "studies/threshold_fit.hpp"
 
 namespace bedload {
@@ -33,6 +34,7 @@ struct ThresholdPoint {
   double stop_interval_lower = 0;   // as of theta_50 [-]
   double stop_interval_upper = 0;
   double hysteresis = 0;     // 1 - theta_stop/theta_50 [-]
+  double systematic = 0;     // relative error by the pairs of the study (error_budget); nan: mesh not tested [-]
   std::string status;        // bracketed | censored_below | censored_above | noisy
   std::uint64_t seeds = 0;   // finished
   std::uint64_t bracketed = 0, censored_below = 0, censored_above = 0, noisy = 0;   // of them
@@ -48,7 +50,8 @@ struct ThresholdPoint {
     visit("interval_lower", p.interval_lower), visit("interval_upper", p.interval_upper);
     visit("confidence", p.confidence), visit("shields_lower", p.lower), visit("shields_upper", p.upper);
     visit("stop", p.stop), visit("stop_interval_lower", p.stop_interval_lower);
-    visit("stop_interval_upper", p.stop_interval_upper), visit("hysteresis", p.hysteresis);
+    visit("stop_interval_upper", p.stop_interval_upper), visit("hysteresis", p.hysteresis),
+        visit("systematic", p.systematic);
     visit("status", p.status), visit("seeds", p.seeds), visit("bracketed", p.bracketed);
     visit("censored_below", p.censored_below), visit("censored_above", p.censored_above), visit("noisy", p.noisy);
     visit("parameter_set", p.set);
@@ -67,8 +70,8 @@ void update_threshold_curve(Database&);
 std::vector<ThresholdPoint> threshold_curve(const Database&);
 
 /// For people: aligned columns, and the laminar band and turbulent curves at the same Galileo number beside ours; below them
-/// what counts as onset, and what a bound that is missing and a noisy ramp mean, where there are such.
-std::string curve_as_table(const std::vector<ThresholdPoint>&);
+/// what counts as onset, the error budget, and what a bound that is missing and a noisy ramp mean, where there are such.
+std::string curve_as_table(const std::vector<ThresholdPoint>&, const std::vector<BudgetEntry>&);
 /// "0.1120-0.1146": where theta_50 lies, with its confidence where that is not 95 %; "-" where nothing says.
 std::string interval_in_words(const ThresholdPoint&);
 /// "onset: flux >= 0.01 per surface grain and td; cells 0.5 d high".

@@ -34,7 +34,7 @@ class ReportTest : public ::testing::Test {
   void add_point(const std::string& set, const char* status, Value shields, Value lower, Value upper) {
     database_.execute(
         "INSERT INTO threshold_curve VALUES (?,5e-4,2,1e-5,0.5,'ramp','flux',0.01,3.5,1.4,?,NULL,NULL,NULL,NULL,0,?,?,"
-        "NULL,NULL,NULL,NULL,?,1,1,0,0,0,?)",
+        "NULL,NULL,NULL,NULL,NULL,?,1,1,0,0,0,?)",
         {set, shields, lower, upper, std::string(status), set});
   }
   void add_case() {

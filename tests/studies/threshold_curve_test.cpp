@@ -146,11 +146,12 @@ TEST_F(ThresholdCurveTest, PrintsTheSameBytesInWhateverOrderTheCasesFinished) {
   EXPECT_TRUE(csv.starts_with(
       "label,diameter_m,density_ratio,viscosity_m2_per_s,cell_z_d,method,criterion,criterion_value,galileo,"
       "friction_reynolds,shields,shields_16,shields_84,interval_lower,interval_upper,confidence,shields_lower,"
-      "shields_upper,stop,stop_interval_lower,stop_interval_upper,hysteresis,status,seeds,bracketed,censored_below,"
+      "shields_upper,stop,stop_interval_lower,stop_interval_upper,hysteresis,systematic,status,seeds,bracketed,"
+      "censored_below,"
       "censored_above,noisy,parameter_set\n"
       "label-a,0.0005,2,1e-05,0.5,ramp,flux,0.01,3.5,"))
       << csv;
-  EXPECT_NE(csv.find(",,0.4,,,,,bracketed,2,1,1,0,0,a\nlabel-b,"), csv.npos) << csv;
+  EXPECT_NE(csv.find(",,0.4,,,,,,bracketed,2,1,1,0,0,a\nlabel-b,"), csv.npos) << csv;
 }
 
 TEST_F(ThresholdCurveTest, WritesNumbersThatReadBackToTheSameBits) {
@@ -164,12 +165,12 @@ TEST_F(ThresholdCurveTest, WritesNumbersThatReadBackToTheSameBits) {
 
 TEST_F(ThresholdCurveTest, ShowsOneSidedBoundsToPeopleAsInequalities) {
   add_seed("a", 1, 5e-4, "censored_above", open_end, 0.44, open_end);
-  EXPECT_NE(curve_as_table(threshold_curve(database_)).find("> 0.4400"), std::string::npos);
+  EXPECT_NE(curve_as_table(threshold_curve(database_), error_budget(database_)).find("> 0.4400"), std::string::npos);
 }
 
 TEST_F(ThresholdCurveTest, SaysWhatCountsAsOnsetOnWhichCells) {
   add_seed("a", 1, 5e-4, "bracketed", 0.16, 0.15, 0.18);
-  const auto said = curve_as_table(threshold_curve(database_));
+  const auto said = curve_as_table(threshold_curve(database_), error_budget(database_));
   EXPECT_NE(said.find("\nonset: flux >= 0.01 per surface grain and td, by a ramp (screening); cells 0.5 d high\n"),
             said.npos)
       << said;
@@ -177,13 +178,14 @@ TEST_F(ThresholdCurveTest, SaysWhatCountsAsOnsetOnWhichCells) {
   EXPECT_EQ(said.find("noisy:"), said.npos) << said;
   cell_z = 0.5e-3;
   add_seed("b", 1, 5e-4, "bracketed", 0.16, 0.15, 0.18);
-  EXPECT_NE(curve_as_table(threshold_curve(database_)).find("; cells 0.5 to 1 d high\n"), said.npos);
+  EXPECT_NE(curve_as_table(threshold_curve(database_), error_budget(database_)).find("; cells 0.5 to 1 d high\n"),
+            said.npos);
   EXPECT_EQ(nlohmann::json::parse(curve_as_json(threshold_curve(database_)))[1]["criterion"], "flux");
 }
 
 TEST_F(ThresholdCurveTest, SaysWhatAMissingBoundAndANoisyRampMean) {
   add_seed("a", 1, 5e-4, "noisy", 0.16, open_end, 0.18);
-  const auto said = curve_as_table(threshold_curve(database_));
+  const auto said = curve_as_table(threshold_curve(database_), error_budget(database_));
   EXPECT_NE(said.find("\nlower -: "), said.npos) << said;
   EXPECT_EQ(said.find("\nupper -: "), said.npos) << said;
   EXPECT_NE(said.find("\nnoisy: "), said.npos) << said;

@@ -1,0 +1,122 @@
+// Pairs of runs, one thing changed, as the systematic error of a campaign.
+#include "studies/error_budget.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/database_values.hpp"
+#include "studies/results.hpp"
+#include "studies/study.hpp"
+#include "studies/threshold_curve.hpp"
+#include "tests/studies/study_fixture.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace bedload {
+namespace {
+
+Study searched(const std::string& budget) {
+  return parse_study(with(good_study, "[drive]", "[onset]\nmethod = \"bisect\"\n" + budget + "\n[drive]"),
+                     "study.toml");
+}
+
+TEST(ErrorBudget, AddsToTheFirstCaseOneForEachPair) {
+  const auto plain = unfold(searched("")), all = unfold(searched("budget = \"auto\""));
+  ASSERT_EQ(all.size(), plain.size() + 4);
+  const Case& first = all.front();
+  std::map<std::string, const Case*> pairs;
+  for (const Case& one : all) {
+    if (one.base_id.empty()) continue;
+    EXPECT_EQ(one.base_id, first.id);
+    EXPECT_EQ(one.seed, first.seed);
+    EXPECT_NE(one.set, first.set);
+    pairs[one.variation] = &one;
+  }
+  ASSERT_EQ(pairs.size(), 4u);
+  EXPECT_DOUBLE_EQ(pairs["bracket"]->scene.onset.bracket, 0.25 * first.scene.onset.bracket);
+  EXPECT_DOUBLE_EQ(pairs["hold"]->scene.onset.hold, 3 * first.scene.onset.hold);
+  EXPECT_EQ(pairs["mesh"]->scene.grid.cells[2] * 2, first.scene.grid.cells[2]);
+  EXPECT_EQ(pairs["mesh"]->scene.grid.cells[0], first.scene.grid.cells[0]);
+  EXPECT_DOUBLE_EQ(pairs["area"]->scene.bed.length.x, 2 * first.scene.bed.length.x);
+  EXPECT_DOUBLE_EQ(pairs["area"]->scene.bed.length.y, 2 * first.scene.bed.length.y);
+  EXPECT_EQ(pairs["area"]->scene.bed.source.count, 4 * first.scene.bed.source.count);
+  for (const char* same : {"bracket", "hold", "mesh"}) EXPECT_EQ(pairs[same]->bed_id, first.bed_id) << same;
+  EXPECT_EQ(pairs["mesh"]->label, "d0.5mm-rho2000-mesh-s1");
+}
+
+TEST(ErrorBudget, IsNotOfARamp) {
+  EXPECT_TRUE(says(complaint(with(good_study, "[drive]", "[onset]\nbudget = [\"mesh\"]\n[drive]")),
+                   "onset.budget: a ramp is a screening and has no error budget"));
+}
+
+class BudgetOfResults : public ::testing::Test {
+ protected:
+  BudgetOfResults() {
+    create_result_tables(database);
+    store_variations(database, cases);
+  }
+  const Case& named(const std::string& variation) const {
+    return *std::ranges::find(cases, variation, &Case::variation);
+  }
+  void finish(const Case& one, double lower, double upper) {
+    database.execute(
+        "INSERT INTO scenes VALUES (?,?,?,?,?,5e-4,0.05,2000,1000,2,1e-5,9.81,3.5,1e5,300,244,1,1,1,1,1,2e-4,"
+        "'di_felice',1,1,1,0)",
+        {one.id, one.label, one.set, one.set_label, static_cast<std::int64_t>(one.seed)});
+    const double found = std::sqrt(lower * upper);
+    database.execute("INSERT INTO thresholds VALUES (?,'flux',0.01,1,'bracketed',?,?,?,'bisect',NULL,NULL)",
+                     {one.id, real_or_null(found), real_or_null(lower), real_or_null(upper)});
+    update_threshold_curve(database);
+  }
+  ThresholdPoint only_point() const {
+    const auto curve = threshold_curve(database);
+    EXPECT_EQ(curve.size(), 1u);
+    return curve.at(0);
+  }
+
+  std::vector<Case> cases = unfold(searched("budget = \"auto\""));
+
+ private:
+  TemporaryDirectory directory_;
+
+ protected:
+  Database database{directory_.path() / "study.db", Database::Mode::write};
+};
+
+TEST_F(BudgetOfResults, SaysThatTheMeshIsNotTested) {
+  finish(cases.front(), 0.12, 0.1248);
+  EXPECT_TRUE(std::isnan(only_point().systematic));
+  EXPECT_EQ(budget_in_words(error_budget(database)), "mesh not tested");
+  finish(named("hold"), 0.12, 0.1248);
+  EXPECT_TRUE(std::isnan(only_point().systematic));
+  EXPECT_TRUE(says(budget_in_words(error_budget(database)), "; mesh not tested (pairs of d0.5mm-rho2000-s1)"));
+}
+
+/// Brackets of 2 % at both ends: a difference within them is a bound, one beyond them stands as it is.
+TEST_F(BudgetOfResults, IsTheDifferencesOfThePairsOrWhatTheyWouldHaveToExceed) {
+  finish(cases.front(), 0.100, 0.104);
+  finish(named("mesh"), 0.120, 0.1248);
+  finish(named("hold"), 0.101, 0.105);
+  const double half = 2.0 / 102 * 2;   // (0.104 - 0.100)/(0.104 + 0.100), twice
+  const auto budget = error_budget(database);
+  ASSERT_EQ(budget.size(), 2u);
+  EXPECT_EQ(budget[0].source, "hold");
+  EXPECT_NEAR(budget[0].difference, std::sqrt(0.101 * 0.105 / (0.1 * 0.104)) - 1, 1e-12);
+  EXPECT_NEAR(budget[0].size(), budget[0].uncertainty, 0);
+  EXPECT_EQ(budget[1].source, "mesh");
+  EXPECT_NEAR(budget[1].difference, 0.2, 1e-12);
+  EXPECT_NEAR(budget[1].uncertainty, half, 1e-12);
+  EXPECT_NEAR(only_point().systematic, std::hypot(0.2, budget[0].uncertainty), 1e-12);
+  EXPECT_EQ(budget_in_words(budget), "hold x 3 < 3.9 %, mesh x 2 +20 %; together 20 % (pairs of d0.5mm-rho2000-s1)");
+}
+
+TEST_F(BudgetOfResults, KnowsNothingOfACensoredPair) {
+  finish(cases.front(), 0.100, 0.104);
+  finish(named("mesh"), 0.120, std::nan(""));
+  EXPECT_TRUE(std::isnan(only_point().systematic));
+  EXPECT_TRUE(says(budget_in_words(error_budget(database)), "mesh x 2 unknown (one of the pair is censored)"));
+}
+
+}   // namespace
+}   // namespace bedload
