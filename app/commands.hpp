@@ -29,6 +29,8 @@ int new_command(const std::string& name);
 int plan_command(const StudyOptions&);
 int explain_command(const StudyOptions&);
 int run_command(const RunOptionsOfCommand&);
+/// Runs what is left of a study with [[trade]], at most so many core-hours of it, and prints what it measured.
+int trade_command(RunOptionsOfCommand, std::optional<double> core_hours);
 int case_command(const std::string& directory, const std::optional<std::string>& until);
 int stop_command(const StudyOptions&);
 int retry_command(const StudyOptions&);

@@ -60,6 +60,7 @@ struct CommandLine {
   StudyOptions& study_ = run_.study;
   std::string name_, directory_, sql_, checkpoint_;
   std::optional<std::string> until_;
+  std::optional<double> budget_;
   bool watch_ = false, digest_ = false, verify_ = false, csv_ = false, json_ = false, quiet_ = false, verbose_ = false;
 };
 
@@ -106,6 +107,14 @@ void CommandLine::study_commands() {
   run->add_flag("--rescan", run_.rescan, "rebuild the database from the case directories first");
   run->add_flag("--recompute", run_.recompute, "start anew what another physics_version computed");
   run->add_flag("--replace", run_.replace, "go on although every case so far leaves the study");
+
+  auto* trade = add("trade", "speed against accuracy, measured: what each [[trade]] costs and changes",
+                    "bedload trade trade-laminar.toml --budget 3", [this] { return trade_command(run_, budget_); });
+  study_argument(trade);
+  trade->add_option("--cores", run_.cores, "workers side by side (default: the study file's)")->check(check_workers);
+  trade->add_option("--budget", budget_, "core-hours: settings that plan predicts beyond are left out")
+      ->check(CLI::PositiveNumber);
+  forms(trade, false);
 
   auto* stop = add("stop", "let workers write a checkpoint and stop", "bedload stop shields.toml 'd0.5mm-*'",
                    [this] { return stop_command(study_); });
@@ -186,7 +195,7 @@ void CommandLine::case_commands() {
 }
 
 void CommandLine::later_commands() {
-  for (const char* name : {"trade", "view", "prune", "doctor"}) {
+  for (const char* name : {"view", "prune", "doctor"}) {
     auto* command = app.add_subcommand(name, "not in this version")->group("");
     command->allow_extras();
     command->callback([name] { not_in_this_version(name); });

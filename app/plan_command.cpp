@@ -9,11 +9,13 @@
 #include "app/commands.hpp"
 #include "app/tables.hpp"
 #include "base/counted.hpp"
+#include "base/durable_file.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "scheduler/bed_sharing.hpp"
 #include "scheduler/progress.hpp"
 #include "solver/required_models.hpp"
+#include "studies/accuracy.hpp"
 #include "studies/case_entry.hpp"
 #include "studies/case_identity.hpp"
 #include "studies/case_warnings.hpp"
@@ -44,7 +46,7 @@ Rows case_rows(const Plan& plan) {
                          static_cast<std::int64_t>(scene.bed.source.count),
                          static_cast<std::int64_t>(scene.grid.cell_count()), scene.bed.grains.young_modulus,
                          scene.bed.dem_step, scene.steps.fluid_interval, real_or_null(n.grain_time),
-                         real_or_null(n.galileo), c.done ? 0.0 : predicted_cost(scene).core_seconds / 3600});
+                         real_or_null(n.galileo), c.done ? 0.0 : predicted_cost(c.one).core_seconds / 3600});
   }
   for (const auto& entry : plan.dropped)
     rows.rows.push_back({short_id(entry.id),
@@ -156,7 +158,7 @@ void print_summary(const Study& study, const Plan& plan, const fs::path& results
     if (!done) core_seconds += cost.core_seconds;
     bytes += cost.bytes;
   };
-  for (const auto& c : plan.cases) add(predicted_cost(c.one.scene), c.done);
+  for (const auto& c : plan.cases) add(predicted_cost(c.one), c.done);
   for (const auto& bed : plan.beds) add(predicted_cost(scene_of(bed)), has_bed(bed_directory(results, case_id(bed))));
   const auto done = std::ranges::count(plan.cases, true, &PlannedCase::done);
   fmt::print("{}: {} ({} new, {} kept, {} extended; {} done), {} dropped, {}; results in {}\n", study.name,
@@ -170,6 +172,8 @@ void print_summary(const Study& study, const Plan& plan, const fs::path& results
       duration_text(core_seconds /
                     std::max<double>(1, std::min<double>(cores, static_cast<double>(plan.cases.size())))),
       counted(cores, "core"), bytes / 1e6);
+  Problems none(study.file.string());
+  if (const auto chosen = chosen_accuracy(study, read_text, none)) fmt::print("{}\n\n", wrapped(chosen->in_words(), 0));
 }
 
 /// The case in the study file as it stands, or one that left it.

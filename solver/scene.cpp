@@ -173,7 +173,7 @@ void check_tracks(const Scene& scene, Found& found) {
 
 void check_steps(const Scene& scene, Found& found) {
   const double rayleigh = smallest_rayleigh_time(scene.bed);
-  if (packed(scene.bed) && scene.bed.dem_step > 0.3 * rayleigh)
+  if (packed(scene.bed) && !scene.steps.beyond_limit && scene.bed.dem_step > 0.3 * rayleigh)
     found.push_back({"steps.dem",
                      fmt::format("{:.4g} s is {:.2g} Rayleigh times of the smallest grain", scene.bed.dem_step,
                                  scene.bed.dem_step / rayleigh),

@@ -77,6 +77,7 @@ struct Onset {
 
 struct Steps {
   double fluid_interval = 0;   // longest fluid step asked for [s]: 10 DEM steps, or the study file's
+  bool beyond_limit = false;   // DEM steps of more than 0.3 Rayleigh times are allowed, to measure what they do
 };
 
 struct RecordPlan {

@@ -42,6 +42,7 @@ std::string toml_value(const StudyKey& key, const Input& input) {
     const auto text = shortest(*number);
     return text.find_first_of(".e") == text.npos ? text + ".0" : text;
   }
+  if (key.kind == StudyKey::Kind::flag) return std::get<std::string>(input);
   if (const auto* word = std::get_if<std::string>(&input)) return fmt::format("\"{}\"", *word);
   if (const auto* words = std::get_if<std::vector<std::string>>(&input))
     return words->empty() ? "[]" : fmt::format("[\"{}\"]", fmt::join(*words, "\", \""));

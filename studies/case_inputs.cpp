@@ -346,7 +346,8 @@ void Resolver::dem_step() {
   }
   if (!inputs.has("steps.dem")) return;
   const double dem = number("steps.dem");
-  if (dem > 0.3 * rayleigh) {
+  take_unless_default("steps.beyond_limit");
+  if (!inputs.has("steps.beyond_limit") && dem > 0.3 * rayleigh) {
     problem(
         "steps.dem",
         fmt::format("{:.4g} s is {:.2g} Rayleigh times of the smallest grain ({:.3g} s)", dem, dem / rayleigh,
@@ -407,11 +408,13 @@ std::string_view staircase_of(const CaseInputs& inputs) {
 CaseInputs bed_inputs(const CaseInputs& inputs) {
   CaseInputs bed{.values = {}, .csv = inputs.csv, .bed_only = true};
   for (const auto& [key, value] : inputs.values) {
-    const bool felt = key.starts_with("fluid.") || key.starts_with("grains.") || key.starts_with("bed.") ||
-                      key.starts_with("box.") || key == "steps.dem";
+    const bool felt =
+        key.starts_with("fluid.") || key.starts_with("grains.") || key.starts_with("bed.") || key.starts_with("box.");
     if (felt && !key.starts_with("box.cell.")) bed.values.emplace(key, value);
   }
-  const double d = inputs.number("grains.diameter"), dem = inputs.number("steps.dem");
+  const double d = inputs.number("grains.diameter"),
+               dem = significant(0.2 * smallest_rayleigh_time(scene_of(inputs).bed), auto_digits);
+  bed.values["steps.dem"] = dem;   // packing takes steps of its own
   bed.values["box.cell.xy"] = std::min({2 * d, inputs.number("box.length"), inputs.number("box.width")});
   bed.values["box.cell.z"] = std::min(0.5 * d, inputs.number("box.height"));
   bed.values["drive.kind"] = std::string("none");

@@ -75,6 +75,12 @@ Plan make_plan(std::vector<Case> cases, const std::vector<CaseEntry>& known, con
   return plan;
 }
 
+Cost predicted_cost(const Case& one) {
+  Cost cost = predicted_cost(one.scene);
+  cost.core_seconds *= one.pace;
+  return cost;
+}
+
 Cost predicted_cost(const Scene& scene) {
   constexpr double grain_steps_per_second = 3.5e6, seconds_per_cell_step = 300e-9;   // coupled; packing is no slower
   constexpr double packing_steps = 8000;   // DEM steps: 6600 to 9500 for the beds of the quickstart

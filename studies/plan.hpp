@@ -40,5 +40,7 @@ struct Cost {
   double bytes = 0;          // of a case: two checkpoints and its rows; of a bed: its checkpoint and bed.h5
 };
 Cost predicted_cost(const Scene&);
+/// The same by what a trade has measured, where the case follows one.
+Cost predicted_cost(const Case&);
 
 }   // namespace bedload

@@ -20,6 +20,7 @@
 #include "scheduler/scheduler.hpp"
 #include "solver/experiment.hpp"
 #include "solver/required_models.hpp"
+#include "studies/accuracy.hpp"
 #include "studies/case_entry.hpp"
 #include "studies/case_file.hpp"
 #include "studies/case_identity.hpp"
@@ -79,13 +80,28 @@ void reopen(const fs::path& directory, const Scene& scene) {
     CheckpointSeries(directory, 2, [](const std::string&) {}).publish(*state);
 }
 
+bool is_beside(const fs::path& named) {
+  return named.is_relative() && std::ranges::find(named, fs::path("..")) == named.end();
+}
+
+void copy_beside(const fs::path& named, const std::string& bytes, const fs::path& results) {
+  if (fs::exists(results / named) && read_text(results / named) == bytes) return;
+  make_writable_directory((results / named).parent_path());
+  publish(results / named, bytes);
+}
+
 /// The result directory is a study too: a table of grains that the copied study file names stands where it names it.
 void copy_table(const CaseInputs& inputs, const fs::path& results) {
   const fs::path named = inputs.word("bed.file");
-  const bool beside = named.is_relative() && std::ranges::find(named, fs::path("..")) == named.end();
-  if (!beside || (fs::exists(results / named) && read_text(results / named) == inputs.csv)) return;
-  make_writable_directory((results / named).parent_path());
-  publish(results / named, inputs.csv);
+  if (is_beside(named)) copy_beside(named, inputs.csv, results);
+}
+
+/// So does the trade that it names.
+void copy_trade(const Study& study, const fs::path& results) {
+  const auto named = study.settings.find("models.accuracy.from");
+  if (named == study.settings.end()) return;
+  const fs::path file = named->second.text;
+  if (is_beside(file)) copy_beside(file, read_text(study.file.parent_path() / file), results);
 }
 
 /// One run of one study.
@@ -272,7 +288,10 @@ int StudyRun::run() {
   const auto plan = make_plan(cases_, read_cases(database), directory_);
   refuse_to_abandon(plan);
   say_warnings();
+  Problems none(study_.file.string());   // told by unfold
+  if (const auto chosen = chosen_accuracy(study_, read_text, none)) log_note(chosen->in_words());
   copy_study_file();
+  copy_trade(study_, directory_);
   enrol(ledger, plan);
   make_directories(plan);
   if (!request_.prepare) return schedule(ledger);

@@ -11,8 +11,10 @@
 #include "solver/grains/bed_packing.hpp"
 #include "solver/grains/suspension.hpp"
 #include "solver/scene_range.hpp"
+#include "studies/accuracy.hpp"
 #include "studies/case_identity.hpp"
 #include "studies/case_warnings.hpp"
+#include "studies/setting_text.hpp"
 #include "studies/setting_value.hpp"
 #include "studies/study_keys.hpp"
 #include "studies/variation.hpp"
@@ -203,26 +205,51 @@ class Unfolding {
   std::vector<Case> all();
 
  private:
-  void add(const Choice&, const Variation* = nullptr);
-  void vary_first(const Choice&);
+  void add(const Choice&, const Variation* = nullptr, const std::string& base_id = {});
+  void choose_settings(Settings&);
+  void judge_distance(Case&);
+  void add_budget(const Choice&);
+  void add_trades(const std::vector<const Choice*>&);
 
   const Study& study_;
   const TableReader& read_table_;
   Problems problems_;
   RangeProblems out_of_range_;
   std::vector<Case> cases_;
+  std::optional<AccuracyChoice> accuracy_;
   std::set<std::string> placed_;   // beds whose grains have been placed
 };
 
-/// A case of the axes, or a variation of the first of them.
-void Unfolding::add(const Choice& choice, const Variation* variation) {
+/// What the trade says; a value of the study's own beside it would be one of the two only.
+void Unfolding::choose_settings(Settings& settings) {
+  for (const auto& [key, chosen] : accuracy_->settings) {
+    const auto [there, is_new] = settings.insert({key, chosen});
+    if (!is_new && !same_value(there->second, chosen))
+      problems_.add(there->second.place,
+                    fmt::format("{}: {} stands beside models.accuracy, which chooses it", key, there->second.text),
+                    fmt::format("leave it out, or models.accuracy ({} = {})", key, as_toml(chosen)));
+  }
+}
+
+void Unfolding::judge_distance(Case& one) {
+  one.pace = accuracy_->pace;
+  if (const auto why = too_far(*accuracy_, one.scene); !why.empty())
+    problems_.add(place_in(study_.settings, "models.accuracy.from"),
+                  fmt::format("models.accuracy: {}: {}", one.label, why),
+                  "a trade of a scene like this one: bedload trade");
+}
+
+/// A case of the axes, or a variation of one.
+void Unfolding::add(const Choice& choice, const Variation* variation, const std::string& base_id) {
   auto settings = settings_of(study_, choice);
   if (variation)
     for (const auto& [key, setting] : variation->changes) settings[key] = setting;
+  if (accuracy_) choose_settings(settings);
   auto inputs = resolve(settings, study_.file.parent_path(), problems_, read_table_);
   if (!problems_.empty()) return;
   auto one = make_case(label_of(study_, choice) + (variation ? "-" + variation->name : ""), std::move(inputs));
-  if (variation) one.variation = variation->name, one.base_id = cases_.front().id;
+  if (variation) one.variation = variation->name, one.changes = variation->changes, one.base_id = base_id;
+  if (accuracy_) judge_distance(one);
   add_problems(problems_of(one.scene), settings, problems_);
   if (problems_.empty() && is_strict(study_.settings)) out_of_range_.add(one, choice, settings);
   if (problems_.empty() && placed_.insert(one.bed_id.empty() ? one.id : one.bed_id).second)
@@ -231,24 +258,38 @@ void Unfolding::add(const Choice& choice, const Variation* variation) {
 }
 
 /// One packing pays for all.
-void Unfolding::vary_first(const Choice& first) {
+void Unfolding::add_budget(const Choice& first) {
   const auto pairs = budget_pairs(settings_of(study_, first), study_.budget);
   if (!pairs.empty() && cases_.front().scene.onset.method != Onset::Method::bisect)
     problems_.add(place_in(study_.settings, "onset.budget"),
                   "onset.budget: a ramp is a screening and has no error budget", "onset.method = \"bisect\"");
   for (const auto& pair : pairs)
-    if (problems_.empty()) add(first, &pair);
+    if (problems_.empty()) add(first, &pair, cases_.front().id);
+}
+
+/// Every packing, each against itself.
+void Unfolding::add_trades(const std::vector<const Choice*>& packings) {
+  for (Variation trade : study_.trades) {
+    if (trade.name.empty())
+      for (const auto& [key, setting] : trade.changes)
+        append(trade.name, std::string(find_key(key)->label) + in_label(setting));
+    trade.name = fit_for_label(trade.name);
+    for (std::size_t n = 0; n < packings.size(); ++n)
+      if (problems_.empty()) add(*packings[n], &trade, cases_[n].id);
+  }
 }
 
 std::vector<Case> Unfolding::all() {
+  accuracy_ = chosen_accuracy(study_, read_table_, problems_);
   const auto choices = product(study_.axes);
-  const Choice* first = nullptr;
+  std::vector<const Choice*> kept;
   for (const auto& choice : choices) {
     if (excluded(study_, choice)) continue;
-    if (!first) first = &choice;
+    kept.push_back(&choice);
     add(choice);
   }
-  if (first && problems_.empty()) vary_first(*first);
+  if (!kept.empty() && problems_.empty()) add_budget(*kept.front());
+  add_trades(kept);
   if (problems_.empty()) out_of_range_.report(problems_);
   check_twins(cases_, problems_);
   if (problems_.empty() && cases_.empty()) problems_.add({}, "every case is excluded", "remove an [[exclude]]");

@@ -10,6 +10,7 @@
 #include "studies/case_inputs.hpp"
 #include "studies/setting.hpp"
 #include "studies/spare_seeds.hpp"
+#include "studies/variation.hpp"
 
 namespace bedload {
 
@@ -38,6 +39,7 @@ struct Study {
   RunOptions run;
   SeedRule seeds;
   std::vector<std::string> budget;   // pairs of the error budget, for one packing
+  std::vector<Variation> trades;     // settings to be measured against those of the study, for every packing
 };
 
 /// One point of a study.
@@ -47,14 +49,16 @@ struct Case {
   std::string set;     // digest without the seed, and the label without it
   std::string set_label;
   std::uint64_t seed = 1;
-  std::string variation;   // what it changes of case `base_id`; both empty in a case of the axes
+  std::string variation;   // the name of what it changes of case `base_id`; empty in a case of the axes, as are
+  Settings changes;        // the settings changed
   std::string base_id;
   std::string bed_id;   // of the bed it starts on; empty when its grains are not settled first
   CaseInputs inputs;
   Scene scene;
+  double pace = 1;   // core seconds measured per core second predicted, where a trade says so
 };
 
-/// The cases of a study: product of its axes without the exclusions, and the variations of its first, each resolved, validated and named. Reports all
+/// The cases of a study: product of its axes without the exclusions, the pairs of its error budget and its trades, each resolved, validated and named. Reports all
 /// problems of all cases at once (Error study_invalid).
 std::vector<Case> unfold(const Study&, const TableReader& = read_text);
 

@@ -125,7 +125,8 @@ Study parse_study(const std::string& text, const std::string& name) {
           std::move(contents.exclusions),
           run,
           seeds,
-          std::move(budget)};
+          std::move(budget),
+          std::move(contents.trades)};
 }
 
 CaseFile parse_case_file(const std::string& text, const std::string& name) {

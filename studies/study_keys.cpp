@@ -124,10 +124,13 @@ constexpr StudyKey keys[] = {
     {"models.smoothing.xy", Kind::quantity, dimension::length, Range::not_negative, {}, {}, "0 m", true, "sxy"},
     {"models.smoothing.z", Kind::quantity, dimension::length, Range::not_negative, {}, {}, "0 m", true, "sz"},
     {"models.terms", Kind::words, dimension::number, Range::any, terms, {}, "auto", true, "terms"},
+    not_physics(amount("models.accuracy.target", dimension::number, "")),
+    not_physics(text("models.accuracy.from", "")),
     {.path = "models.strict", .kind = Kind::flag, .fallback = "false", .physics = false},
 
     amount("steps.dem", dimension::time, "dt", "auto", "auto"),
     amount("steps.fluid", dimension::time, "T", "auto", "auto"),
+    {.path = "steps.beyond_limit", .kind = Kind::flag, .fallback = "false"},
 
     amount("record.every", dimension::time, "every", "1 td"),
     {.path = "record.tracks", .kind = Kind::ids, .label = "tracks"},
@@ -144,7 +147,6 @@ struct LaterKey {
   std::string_view path, what;
 };
 constexpr LaterKey later_keys[] = {
-    {"models.accuracy", "settings chosen by a measured accuracy"},
     {"models.turbulence", "turbulence closures"},
     {"run.wall_limit", "a wall time limit per attempt"},
     {"run.slurm", "running through Slurm"},

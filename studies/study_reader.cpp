@@ -34,6 +34,7 @@ class Reader {
   void counted_seeds(const StudyKey&, const Node& table, bool axes_allowed);
   void exclusions_of(const Node&);
   void check_exclusion(const Settings&);
+  void trades_of(const Node&);
 
   Problems& problems_;
   bool case_file_;
@@ -46,6 +47,7 @@ StudyContents Reader::read(const Node& root) {
   const auto order = [](const Axis& a) { return find_key(a.key); };   // of the table of keys, whatever the file's
   std::ranges::sort(found_.axes, std::less<>(), order);
   if (const auto* node = root.find("exclude")) exclusions_of(*node);
+  if (const auto* node = root.find("trade")) trades_of(*node);
   return std::move(found_);
 }
 
@@ -60,7 +62,7 @@ void Reader::check_format(const Node& root) {
 void Reader::walk(const Node& table, const std::string& prefix, Settings& into, bool axes_allowed) {
   for (const auto& node : table.items) {
     const std::string path = prefix + node.key;
-    if (prefix.empty() && (path == "format" || path == "exclude")) continue;
+    if (prefix.empty() && (path == "format" || path == "exclude" || path == "trade")) continue;
     if (path == "bed_only" && case_file_ && node.is(Node::Kind::truth)) {
       found_.bed_only = node.truth;
       continue;
@@ -159,6 +161,29 @@ void Reader::check_exclusion(const Settings& exclusion) {
     if (std::ranges::find(found_.axes, entry.first, &Axis::key) != found_.axes.end()) continue;
     problems_.add(entry.second.place, fmt::format("exclude: {} does not vary in this study", entry.first),
                   "name keys that are axes");
+  }
+}
+
+/// [[trade]]: what is changed, and a name for it if the keys are not to say.
+void Reader::trades_of(const Node& list) {
+  if (!list.is_list_of(Node::Kind::table) || case_file_)
+    return problems_.add(list.place, "trade: this is not a list of tables",
+                         "write [[trade]] and below it, for example, box.cell.z = \"1 d\"");
+  for (const auto& axis : found_.axes)
+    if (axis.key != "bed.seed")
+      problems_.add(axis.values.front().place, fmt::format("{}: a trade is made around one scene", axis.key),
+                    "one value; bed.seed alone may be an axis");
+  for (const auto& table : list.items) {
+    Variation one;
+    walk(table, "", one.changes, false);
+    if (const auto name = one.changes.extract("name")) one.name = name.mapped().text;
+    for (const auto& [key, setting] : one.changes)
+      if (!find_key(key)->physics || key == "bed.seed")
+        problems_.add(setting.place, fmt::format("trade: {} is nothing that results hang on", key),
+                      "keys of the scene, its models and its steps");
+    if (one.changes.empty())
+      problems_.add(table.place, "trade: nothing is changed", "for example box.cell.z = \"1 d\"");
+    found_.trades.push_back(std::move(one));
   }
 }
 

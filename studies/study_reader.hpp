@@ -14,6 +14,7 @@ struct StudyContents {
   Settings settings;
   std::vector<Axis> axes;   // in order of study_keys()
   std::vector<Settings> exclusions;
+  std::vector<Variation> trades;
   bool bed_only = false;
 };
 

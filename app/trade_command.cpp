@@ -1,0 +1,47 @@
+// `bedload trade`: runs what a study's [[trade]] asks for, then says what each setting costs and changes.
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "base/durable_file.hpp"
+#include "base/log.hpp"
+#include "studies/case_entry.hpp"
+#include "studies/plan.hpp"
+#include "studies/study_file.hpp"
+#include "studies/trade.hpp"
+
+namespace bedload {
+
+namespace {
+
+/// The cases that a budget allows: the finest setting's, then one setting after the other as the study file has them.
+std::vector<std::string> within(double core_hours, const std::vector<Case>& cases) {
+  std::vector<std::string> ids;
+  double spent = 0;
+  for (const Case& one : cases) {
+    spent += predicted_cost(one.scene).core_seconds / 3600;
+    if (spent > core_hours && !ids.empty()) break;
+    ids.push_back(one.id);
+  }
+  if (ids.size() < cases.size())
+    log_note(fmt::format("the budget allows {} of {} cases, by `bedload plan`'s prediction", ids.size(), cases.size()));
+  return ids;
+}
+
+}   // namespace
+
+int trade_command(RunOptionsOfCommand options, std::optional<double> core_hours) {
+  const auto place = find_study(options.study.study, options.study.out);
+  const auto study = read_study(place.file);
+  const auto cases = unfold(study);
+  if (core_hours) options.study.cases = within(*core_hours, cases);
+  if (const int code = run_command(options); code != 0) return code;
+  const auto trade = measured_trade(open_results(place), study, cases);
+  publish(place.directory / "trade.json", trade_as_json(trade));
+  publish(place.directory / "trade.svg", trade_figure(trade));
+  fmt::print("{}", options.study.form == Form::json ? trade_as_json(trade) : trade_as_table(trade));
+  log_note(fmt::format("{} and trade.svg beside it; another study uses it with models.accuracy",
+                       (place.directory / "trade.json").string()));
+  return 0;
+}
+
+}   // namespace bedload

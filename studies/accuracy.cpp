@@ -1,0 +1,114 @@
+#include "studies/accuracy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "solver/dimensionless.hpp"
+#include "studies/setting_text.hpp"
+#include "studies/study_file.hpp"
+
+namespace bedload {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double farthest = 3;   // factor by which a scene may differ from the one of its trade
+
+/// The keys and values of a trade's setting, read as a study file would be.
+Settings settings_in(const json& values, const std::string& file) {
+  std::string text = "format = 1\n";
+  for (const auto& [key, value] : values.items()) text += key + " = " + value.get<std::string>() + "\n";
+  return parse_study(text, file).settings;
+}
+
+/// The error to reckon with; none where a setting was not measured.
+std::optional<double> error_of(const json& setting) {
+  const auto &theta = setting.at("theta"), &difference = theta.at("difference");
+  if (setting.at("packings").get<int>() == 0 || !difference.is_number()) return {};
+  return std::max(std::abs(difference.get<double>()), theta.at("uncertainty").get<double>());
+}
+
+const json& cheapest(const json& settings, double target) {
+  const json* best = &settings.at(0);   // the finest, without an error by definition
+  for (const auto& one : settings) {
+    const auto error = error_of(one);
+    const bool cheaper = one.at("core_seconds") < best->at("core_seconds");
+    if (error && *error <= target && cheaper) best = &one;
+  }
+  return *best;
+}
+
+AccuracyChoice choice_from(const json& trade, const std::string& file, double target) {
+  const json &settings = trade.at("settings"), &chosen = cheapest(settings, target), &scene = trade.at("scene");
+  AccuracyChoice made;
+  made.from = file, made.target = target, made.setting = chosen.at("name");
+  made.settings = settings_in(trade.at("finest"), file);
+  for (auto& [key, setting] : settings_in(chosen.at("changes"), file)) made.settings[key] = setting;
+  made.error = error_of(chosen).value_or(0);
+  const double seconds = chosen.at("core_seconds");
+  made.cost = seconds / settings.at(0).at("core_seconds").get<double>();
+  made.pace = seconds / chosen.at("predicted_seconds").get<double>();
+  made.galileo = scene.at("galileo"), made.density_ratio = scene.at("density_ratio"),
+  made.shields = scene.at("shields");
+  return made;
+}
+
+bool far(double a, double b) { return !(a <= farthest * b && b <= farthest * a); }
+
+}   // namespace
+
+std::string AccuracyChoice::in_words() const {
+  std::string list;
+  for (const auto& [key, value] : settings)
+    list += fmt::format("{}{} = {}", list.empty() ? "" : ", ", key, as_toml(value));
+  return fmt::format(
+      "accuracy {:.3g} %: setting {} of {}, theta_c measured to be within {:.2g} % of the finest, for {:.2g} of its "
+      "time: {}",
+      100 * target, setting, from, 100 * error, cost, list);
+}
+
+std::optional<AccuracyChoice> chosen_accuracy(const Study& study, const TableReader& read_table, Problems& problems) {
+  const auto target = study.settings.find("models.accuracy.target"), from = study.settings.find("models.accuracy.from");
+  if (target == study.settings.end() && from == study.settings.end()) return {};
+  if (target == study.settings.end() || from == study.settings.end()) {
+    const auto& there = target == study.settings.end() ? from->second : target->second;
+    problems.add(there.place, "models.accuracy: a target and the trade that measured it are needed",
+                 "accuracy = { target = \"5 %\", from = \"trade-laminar/trade.json\" }");
+    return {};
+  }
+  const auto file = study.file.parent_path() / from->second.text;
+  try {
+    return choice_from(json::parse(read_table(file)), from->second.text,
+                       std::get<Quantity>(target->second.value).value);
+  } catch (const json::exception& error) {
+    problems.add(from->second.place,
+                 fmt::format("models.accuracy.from: {} is not a trade: {}", file.string(), error.what()),
+                 "the trade.json that `bedload trade` writes");
+  } catch (const Error& error) {
+    problems.add(from->second.place, fmt::format("models.accuracy.from: {}", error.what()), error.hint);
+  }
+  return {};
+}
+
+std::string too_far(const AccuracyChoice& choice, const Scene& scene) {
+  const auto& bed = scene.bed;
+  const double s = bed.grains.density / bed.fluid.density;
+  const double galileo = galileo_number(s, norm(bed.gravity), bed.grains.diameter, bed.fluid.viscosity);
+  const auto& levels = scene.drive.levels;
+  const auto said = [&](std::string_view what, double here) {
+    return fmt::format("{} {:.3g} is more than a factor {:g} from the trade's", what, here, farthest);
+  };
+  if (far(galileo, choice.galileo)) return said("the Galileo number", galileo) + fmt::format(" {:.3g}", choice.galileo);
+  if (far(s, choice.density_ratio)) return said("the density ratio", s) + fmt::format(" {:.3g}", choice.density_ratio);
+  const bool reached = std::ranges::any_of(levels, [&](double level) { return !far(level, choice.shields); });
+  if (scene.onset.method != Onset::Method::none && !levels.empty() && !reached)
+    return said("every Shields number, the first being", levels.front()) + fmt::format(" {:.3g}", choice.shields);
+  return {};
+}
+
+}   // namespace bedload

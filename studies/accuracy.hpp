@@ -1,0 +1,34 @@
+// `accuracy` in [models]: the cheapest setting that a trade has measured to be good enough.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "studies/study.hpp"
+
+namespace bedload {
+
+struct AccuracyChoice {
+  std::string from;      // the trade's file
+  std::string setting;   // its name there
+  Settings
+      settings;   // of all keys that the trade varies: those of the finest setting, changed as the chosen one has them
+  double error = 0;    // of theta_c against the finest setting, or its bound [-]
+  double target = 0;   // [-]
+  double cost = 1;     // core seconds relative to the finest setting
+  double pace = 1;     // core seconds measured per core second that `plan` predicts by itself
+  double galileo = 0, density_ratio = 0, shields = 0;   // of the scene of the trade [-]
+
+  /// What was chosen, and why.
+  std::string in_words() const;
+};
+
+/// Reads the trade that a study names (`models.accuracy.from`, relative to the study's file) and takes the cheapest of its
+/// settings whose error is at most `models.accuracy.target`. Nothing where no accuracy is asked for; what is wrong is reported.
+std::optional<AccuracyChoice> chosen_accuracy(const Study&, const TableReader&, Problems&);
+
+/// Why a scene is too far from that of the trade: a factor of more than 3 in Galileo number, density ratio or Shields number;
+/// empty if it is not.
+std::string too_far(const AccuracyChoice&, const Scene&);
+
+}   // namespace bedload

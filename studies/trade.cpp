@@ -1,0 +1,210 @@
+// Pairs of cases to differences, and differences to a frontier.
+#include "studies/trade.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "base/error.hpp"
+#include "studies/database_values.hpp"
+#include "studies/plan.hpp"
+#include "studies/study_keys.hpp"
+#include "studies/threshold_curve.hpp"
+
+namespace bedload {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// A stair or a level of a ramp.
+struct Stair {
+  double level, flux, flux_error, height, porosity;   // [-], [-], [-], [d], [-]
+};
+
+/// What a finished case says.
+struct Outcome {
+  double shields, lower, upper;   // theta_c and its bracket [-]
+  std::vector<Stair> stairs;
+  double core_seconds;
+};
+
+std::optional<Outcome> outcome_of(const Database& database, const std::string& id) {
+  const auto thresholds = database.query(
+      "SELECT shields, shields_lower, shields_upper FROM thresholds WHERE decides = 1 AND case_id = ?", {id});
+  if (thresholds.rows.empty()) return {};
+  const auto& row = thresholds.rows.front();
+  Outcome found{number_in(row[0]), number_in(row[1]), number_in(row[2]), {}, 0};
+  const auto stairs = database.query(
+      "SELECT shields_nominal, event_flux, event_flux_error, bed_height_m / diameter_m, porosity FROM ramp_points "
+      "JOIN scenes USING (case_id) WHERE purpose IN ('ramp', 'staircase') AND case_id = ? ORDER BY hold",
+      {id});
+  for (const auto& s : stairs.rows)
+    found.stairs.push_back({number_in(s[0]), number_in(s[1]), number_in(s[2]), number_in(s[3]), number_in(s[4])});
+  if (has_table(database, "attempts"))
+    found.core_seconds = number_in(
+        database.query("SELECT coalesce(sum(core_time_s), 0.0) FROM attempts WHERE case_id = ?", {id}).rows[0][0]);
+  return found;
+}
+
+/// A difference of one packing, and the standard error that its two runs leave it.
+struct Single {
+  double difference, error;
+};
+using Measure = std::function<std::optional<Single>(const Outcome& finest, const Outcome& other)>;
+
+/// The threshold lies anywhere in its bracket: a deviation of its half width over sqrt(3).
+std::optional<Single> theta_difference(const Outcome& finest, const Outcome& other) {
+  const double found = std::log(other.shields / finest.shields);
+  if (!std::isfinite(found)) return {};
+  const auto deviation = [](const Outcome& o) { return std::log(o.upper / o.lower) / (2 * std::sqrt(3.0)); };
+  return Single{found, std::hypot(deviation(finest), deviation(other))};
+}
+
+std::optional<Single> flux_difference(const Outcome& finest, const Outcome& other) {
+  for (std::size_t k = std::min(finest.stairs.size(), other.stairs.size()); k-- > 0;) {
+    const Stair &a = finest.stairs[k], &b = other.stairs[k];
+    if (a.level == b.level && a.flux > 0)
+      return Single{b.flux / a.flux - 1, std::hypot(a.flux_error, b.flux_error) / a.flux};
+  }
+  return {};
+}
+
+std::optional<Single> first_stair(const Outcome& finest, const Outcome& other, double Stair::*what) {
+  if (finest.stairs.empty() || other.stairs.empty()) return {};
+  return Single{other.stairs[0].*what - finest.stairs[0].*what, 0};
+}
+
+struct NamedMeasure {
+  PairedDifference TradeSetting::*member;
+  Measure of;
+};
+
+const std::vector<NamedMeasure>& measures() {
+  static const std::vector<NamedMeasure> all{
+      {&TradeSetting::theta, theta_difference},
+      {&TradeSetting::flux, flux_difference},
+      {&TradeSetting::height, [](const Outcome& a, const Outcome& b) { return first_stair(a, b, &Stair::height); }},
+      {&TradeSetting::porosity,
+       [](const Outcome& a, const Outcome& b) { return first_stair(a, b, &Stair::porosity); }}};
+  return all;
+}
+
+/// The singles of one measure, setting by setting.
+using Singles = std::vector<std::vector<Single>>;
+
+double mean_of(const std::vector<Single>& singles) {
+  double sum = 0;
+  for (const Single& s : singles) sum += s.difference;
+  return sum / static_cast<double>(singles.size());
+}
+
+/// Deviation of a packing's difference from the mean of its setting, over all settings: two packings alone say nothing of it.
+double pooled_deviation(const Singles& all) {
+  double squares = 0, freedom = 0;
+  for (const auto& singles : all) {
+    if (singles.size() < 2) continue;
+    const double mean = mean_of(singles);
+    for (const Single& s : singles) squares += (s.difference - mean) * (s.difference - mean);
+    freedom += static_cast<double>(singles.size() - 1);
+  }
+  return freedom > 0 ? std::sqrt(squares / freedom) : 0;
+}
+
+PairedDifference paired(const std::vector<Single>& singles, double pooled) {
+  if (singles.empty()) return {unknown, unknown};
+  const double n = static_cast<double>(singles.size());
+  double squares = 0;
+  for (const Single& s : singles) squares += s.error * s.error;
+  return {mean_of(singles), 2 * std::sqrt(squares / n + pooled * pooled) / std::sqrt(n)};
+}
+
+/// The packings of a setting, by the case of the finest one that each is compared with.
+using Packings = std::map<std::string, Outcome>;
+
+void compare(const std::vector<Packings>& outcomes, std::vector<TradeSetting>& settings) {
+  const Packings& finest = outcomes.front();
+  for (const auto& [member, of] : measures()) {
+    Singles all;
+    for (const auto& packings : outcomes) {
+      auto& singles = all.emplace_back();
+      if (&packings == &finest) continue;
+      for (const auto& [base, outcome] : packings)
+        if (const auto found = finest.find(base); found != finest.end())
+          if (const auto single = of(found->second, outcome)) singles.push_back(*single);
+    }
+    const double pooled = pooled_deviation(all);
+    for (std::size_t n = 1; n < settings.size(); ++n) settings[n].*member = paired(all[n], pooled);
+  }
+}
+
+void mark_frontier(std::vector<TradeSetting>& settings) {
+  const auto beats = [](const TradeSetting& a, const TradeSetting& b) {
+    return a.core_seconds <= b.core_seconds && a.theta.size() <= b.theta.size() &&
+           (a.core_seconds < b.core_seconds || a.theta.size() < b.theta.size());
+  };
+  for (TradeSetting& one : settings)
+    one.frontier = one.packings > 0 && std::isfinite(one.theta.size()) &&
+                   std::ranges::none_of(
+                       settings, [&](const TradeSetting& other) { return other.packings > 0 && beats(other, one); });
+}
+
+/// The value that a key has in the study itself.
+Setting value_in(const Study& study, const std::string& key) {
+  if (const auto found = study.settings.find(key); found != study.settings.end()) return found->second;
+  if (const auto fallback = fallback_of(*find_key(key))) return *fallback;
+  throw Error(ErrorKind::study_invalid, fmt::format("trade: {} is changed, and the study gives it no value", key),
+              "give it in the study: the value of the finest setting");
+}
+
+void add_case(const Database& database, const Case& one, Packings& packings, TradeSetting& setting) {
+  const auto outcome = outcome_of(database, one.id);
+  if (!outcome) return;
+  packings[one.base_id.empty() ? one.id : one.base_id] = *outcome;
+  ++setting.packings;
+  setting.core_seconds += outcome->core_seconds;
+  setting.predicted_seconds += predicted_cost(one.scene).core_seconds;
+}
+
+}   // namespace
+
+bool PairedDifference::seen() const { return std::abs(mean) > uncertainty; }
+double PairedDifference::size() const { return std::fmax(std::abs(mean), uncertainty); }
+
+Trade measured_trade(const Database& database, const Study& study, const std::vector<Case>& cases) {
+  if (study.trades.empty())
+    throw Error(ErrorKind::study_invalid, fmt::format("{} has no [[trade]]", study.file.string()),
+                "write [[trade]] and below it what is to be changed, for example box.cell.z = \"1 d\"");
+  Trade trade{.study = study.name, .settings = {{.name = "finest"}}};
+  std::vector<Packings> outcomes(1);
+  for (const Case& one : cases) {
+    const std::string& name = one.base_id.empty() ? trade.settings[0].name : one.variation;
+    auto known = std::ranges::find(trade.settings, name, &TradeSetting::name);
+    if (known == trade.settings.end()) {
+      trade.settings.push_back({.name = name, .changes = one.changes});
+      outcomes.emplace_back();
+      known = trade.settings.end() - 1;
+    }
+    add_case(database, one, outcomes[static_cast<std::size_t>(known - trade.settings.begin())], *known);
+  }
+  if (outcomes.front().empty())
+    throw Error(ErrorKind::not_found, fmt::format("{}: no case of the finest setting has finished", study.name),
+                "bedload trade runs what is left");
+  for (TradeSetting& setting : trade.settings) {
+    setting.core_seconds /= static_cast<double>(setting.packings),
+        setting.predicted_seconds /= static_cast<double>(setting.packings);
+    for (const auto& [key, value] : setting.changes) trade.finest[key] = value_in(study, key);
+  }
+  compare(outcomes, trade.settings);
+  mark_frontier(trade.settings);
+  for (const ThresholdPoint& point : threshold_curve(database))
+    trade.galileo = point.galileo, trade.density_ratio = point.density_ratio, trade.shields = point.shields;
+  return trade;
+}
+
+}   // namespace bedload

@@ -1,0 +1,54 @@
+// Speed against accuracy: what each setting of a trade changes in the results, from the same settled beds, and what it costs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scheduler/database.hpp"
+#include "studies/study.hpp"
+
+namespace bedload {
+
+/// Mean over the packings of the difference to the finest setting, and how well it is known: two standard errors, from what
+/// the runs themselves leave open and from the spread of all paired differences of the trade. nan: not measured.
+struct PairedDifference {
+  double mean = 0, uncertainty = 0;
+  /// Whether it is more than noise; if not, `uncertainty` is a bound.
+  bool seen() const;
+  /// The error to reckon with: the difference, or its bound.
+  double size() const;
+};
+
+/// A setting beside the finest one.
+struct TradeSetting {
+  std::string name;               // "finest", or what is changed
+  Settings changes;               // by key
+  std::size_t packings = 0;       // with results of both
+  PairedDifference theta;         // of theta_c, relative [-]
+  PairedDifference flux;          // of the flux at the highest stair that both have climbed, relative [-]
+  PairedDifference height;        // of the bed's surface at the end of the first stair [d]
+  PairedDifference porosity;      // of the bed then [-]
+  double core_seconds = 0;        // of one packing, mean
+  double predicted_seconds = 0;   // what `plan` says of it without a trade, mean
+  bool frontier = false;          // none is as cheap and as good in theta
+};
+
+struct Trade {
+  std::string study;
+  double galileo = 0, density_ratio = 0, shields = 0;   // of the scene: theta_50 of its finest setting [-]
+  Settings finest;                                      // values of all keys that are changed anywhere
+  std::vector<TradeSetting> settings;                   // the finest first, then in the order of the study file
+};
+
+/// From the finished cases of the study's database. Throws Error not_found where the finest setting has no result yet, and
+/// study_invalid for a study without [[trade]].
+Trade measured_trade(const Database&, const Study&, const std::vector<Case>&);
+
+/// For people: a line per setting, cheapest first, the frontier marked.
+std::string trade_as_table(const Trade&);
+/// For programs, and for `accuracy` in [models] of other studies.
+std::string trade_as_json(const Trade&);
+/// Error of theta_c against cost, as a self-contained SVG.
+std::string trade_figure(const Trade&);
+
+}   // namespace bedload

@@ -1,0 +1,118 @@
+// A trade as a table, as JSON, as a figure.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "studies/setting_text.hpp"
+#include "studies/svg_plot.hpp"
+#include "studies/trade.hpp"
+
+namespace bedload {
+
+namespace {
+
+/// "+3.1 %", or "< 4 %" where it is not seen; "-" where it was not measured.
+std::string difference_in_words(const PairedDifference& d, double unit, std::string_view sign) {
+  if (!std::isfinite(d.mean) || d.uncertainty == 0) return "-";
+  const double scale = 1 / unit;
+  return d.seen() ? fmt::format("{:+.2g}{}", scale * d.mean, sign)
+                  : fmt::format("< {:.2g}{}", scale * d.uncertainty, sign);
+}
+
+std::vector<const TradeSetting*> cheapest_first(const Trade& trade) {
+  std::vector<const TradeSetting*> all;
+  for (const TradeSetting& one : trade.settings) all.push_back(&one);
+  std::ranges::stable_sort(all, {}, [](const TradeSetting* one) {
+    return one->packings > 0 ? one->core_seconds : std::numeric_limits<double>::infinity();
+  });
+  return all;
+}
+
+nlohmann::ordered_json as_json(const PairedDifference& d) {
+  return {{"difference", d.mean}, {"uncertainty", d.uncertainty}, {"seen", d.seen()}};
+}
+
+nlohmann::ordered_json as_json(const Settings& settings) {
+  auto json = nlohmann::ordered_json::object();
+  for (const auto& [key, setting] : settings) json[key] = as_toml(setting);
+  return json;
+}
+
+}   // namespace
+
+std::string trade_as_table(const Trade& trade) {
+  std::size_t width = 7;
+  for (const TradeSetting& one : trade.settings) width = std::max(width, one.name.size());
+  std::string text = fmt::format("  {:<{}} {:>8} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "setting", width, "packings",
+                                 "core s", "cost", "theta_c", "flux", "height/d", "porosity");
+  const double finest = trade.settings.front().core_seconds;
+  for (const TradeSetting* one : cheapest_first(trade)) {
+    if (one->packings == 0) {
+      text += fmt::format("  {:<{}} not run yet\n", one->name, width);
+      continue;
+    }
+    text += fmt::format("{} {:<{}} {:>8} {:>10.3g} {:>7.0f}% {:>9} {:>9} {:>9} {:>9}\n", one->frontier ? '*' : ' ',
+                        one->name, width, one->packings, one->core_seconds, 100 * one->core_seconds / finest,
+                        difference_in_words(one->theta, 0.01, "%"), difference_in_words(one->flux, 0.01, "%"),
+                        difference_in_words(one->height, 1, ""), difference_in_words(one->porosity, 1, ""));
+  }
+  return text + fmt::format(
+                    "differences to the finest setting, same beds, mean over the packings; < : not seen, two standard "
+                    "errors\n* no other setting is as cheap and as good in theta_c. core s: of one packing\n"
+                    "scene: Ga = {:.3g}, s = {:.3g}, theta_50 = {:.4f}\n",
+                    trade.galileo, trade.density_ratio, trade.shields);
+}
+
+std::string trade_as_json(const Trade& trade) {
+  auto settings = nlohmann::ordered_json::array();
+  for (const TradeSetting& one : trade.settings)
+    settings.push_back({{"name", one.name},
+                        {"changes", as_json(one.changes)},
+                        {"packings", one.packings},
+                        {"core_seconds", one.core_seconds},
+                        {"predicted_seconds", one.predicted_seconds},
+                        {"frontier", one.frontier},
+                        {"theta", as_json(one.theta)},
+                        {"flux", as_json(one.flux)},
+                        {"height_d", as_json(one.height)},
+                        {"porosity", as_json(one.porosity)}});
+  const nlohmann::ordered_json json = {
+      {"format", 1},
+      {"study", trade.study},
+      {"scene", {{"galileo", trade.galileo}, {"density_ratio", trade.density_ratio}, {"shields", trade.shields}}},
+      {"finest", as_json(trade.finest)},
+      {"settings", settings}};
+  return json.dump(2) + "\n";
+}
+
+std::string trade_figure(const Trade& trade) {
+  double cheapest = std::numeric_limits<double>::infinity(), dearest = 0, worst = 0.02;
+  for (const TradeSetting& one : trade.settings) {
+    if (one.packings == 0) continue;
+    cheapest = std::min(cheapest, one.core_seconds), dearest = std::max(dearest, one.core_seconds);
+    if (std::isfinite(one.theta.size())) worst = std::max(worst, one.theta.size());
+  }
+  SvgPlot plot(900, 440, {"core seconds of one packing", cheapest / 1.5, dearest * 1.5, true},
+               {"error of θc against the finest setting  [%]", 0, 110 * worst, false}, 260);
+  plot.legend_heading("settings");
+  for (const TradeSetting* one : cheapest_first(trade)) {
+    if (one->packings == 0 || !std::isfinite(one->theta.size())) continue;
+    const std::string_view colour = one->frontier ? "#1f6feb" : "#8a8a8a";
+    const double error = 100 * one->theta.size();
+    if (one->theta.seen())
+      plot.vertical_bar(one->core_seconds, std::max(0.0, error - 100 * one->theta.uncertainty),
+                        error + 100 * one->theta.uncertainty, colour);
+    plot.marker({one->core_seconds, error}, Marker::circle, colour, one->theta.seen() || one->name == "finest",
+                fmt::format("{}: {} at {:.3g} core s", one->name, difference_in_words(one->theta, 0.01, "%"),
+                            one->core_seconds));
+    plot.note({one->core_seconds, error}, "  " + one->name, colour);
+  }
+  plot.legend_marker("on the frontier", Marker::circle, "#1f6feb", true);
+  plot.legend_marker("dearer, or no better", Marker::circle, "#8a8a8a", true);
+  plot.legend_marker("a bound: not seen", Marker::circle, "#8a8a8a", false);
+  return plot.svg();
+}
+
+}   // namespace bedload
