@@ -10,7 +10,7 @@
 
 namespace bedload {
 
-enum class Form { table, csv, json };   // how results are printed
+enum class Form { table, csv, json, svg };   // how results are printed; svg: the curve alone
 
 struct StudyOptions {
   std::string study;                // study file or result directory

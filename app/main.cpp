@@ -61,7 +61,8 @@ struct CommandLine {
   std::string name_, directory_, sql_, checkpoint_;
   std::optional<std::string> until_;
   std::optional<double> budget_;
-  bool watch_ = false, digest_ = false, verify_ = false, csv_ = false, json_ = false, quiet_ = false, verbose_ = false;
+  bool watch_ = false, digest_ = false, verify_ = false, csv_ = false, json_ = false, svg_ = false, quiet_ = false,
+       verbose_ = false;
 };
 
 CLI::App* CommandLine::add(const std::string& name, const std::string& what, const std::string& example, Run run) {
@@ -71,7 +72,7 @@ CLI::App* CommandLine::add(const std::string& name, const std::string& what, con
   command->callback([this, run] {
     set_verbosity(quiet_ ? Verbosity::quiet : verbose_ ? Verbosity::verbose : Verbosity::normal);
     run_.quiet = quiet_;
-    study_.form = json_ ? Form::json : csv_ ? Form::csv : Form::table;
+    study_.form = json_ ? Form::json : csv_ ? Form::csv : svg_ ? Form::svg : Form::table;
     code = run();
   });
   return command;
@@ -144,6 +145,7 @@ void CommandLine::result_commands() {
                     "bedload curve shields.toml --csv > curve.csv", [this] { return curve_command(study_); });
   study_argument(curve);
   forms(curve);
+  curve->add_flag("--svg", svg_, "print the figure of the report")->excludes("--csv", "--json");
 
   auto* query = add("query", "any question to the result database, read only",
                     "bedload query shields.toml \"SELECT label, shields FROM threshold_curve\"",

@@ -15,8 +15,10 @@
 #include "solver/dimensionless.hpp"
 #include "studies/case_file.hpp"
 #include "studies/report.hpp"
+#include "studies/report_figures.hpp"
 #include "studies/study_directory.hpp"
 #include "studies/study_file.hpp"
+#include "studies/svg_plot.hpp"
 #include "studies/threshold_curve.hpp"
 
 namespace bedload {
@@ -74,6 +76,7 @@ int curve_command(const StudyOptions& options) {
   if (curve.empty() && options.form == Form::table) return 0;
   fmt::print("{}", options.form == Form::csv    ? curve_as_csv(curve)
                    : options.form == Form::json ? curve_as_json(curve)
+                   : options.form == Form::svg  ? standing_alone(threshold_figure(curve))
                                                 : curve_as_table(curve, error_budget(results)));
   return 0;
 }

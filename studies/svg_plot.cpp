@@ -209,4 +209,16 @@ std::string SvgPlot::svg() const {
       width_, height_, left, top, axes(), inner_width_, inner_height_, areas_, marks_, inner_width_ + 22, legend_);
 }
 
+std::string standing_alone(const std::string& svg) {
+  constexpr std::string_view style =
+      "<style>svg{font:12px 'Liberation Sans','DejaVu Sans',sans-serif;fill:#333;background:#fff}"
+      ".grid{stroke:#dfe4e7}.fine{stroke:#eff2f3}.frame{fill:none;stroke:#7d8890}.axis{font-size:13px;fill:#22292e}"
+      ".heading{font-weight:600;fill:#22292e}</style>";
+  constexpr std::string_view opening = "<svg ";
+  const auto end = svg.find('>');
+  if (!svg.starts_with(opening) || end == svg.npos) return svg;
+  return fmt::format("<svg xmlns='http://www.w3.org/2000/svg' {}{}{}\n",
+                     svg.substr(opening.size(), end + 1 - opening.size()), style, svg.substr(end + 1));
+}
+
 }   // namespace bedload

@@ -10,6 +10,9 @@ namespace bedload {
 /// Text safe between tags and in attributes.
 std::string escaped(std::string_view text);
 
+/// A picture in a report takes the page's style; alone in its file it brings its own.
+std::string standing_alone(const std::string& svg);
+
 struct PlotAxis {
   std::string label;   // with its unit
   double low = 0, high = 1;

@@ -112,7 +112,7 @@ std::string trade_figure(const Trade& trade) {
   plot.legend_marker("on the frontier", Marker::circle, "#1f6feb", true);
   plot.legend_marker("dearer, or no better", Marker::circle, "#8a8a8a", true);
   plot.legend_marker("a bound: not seen", Marker::circle, "#8a8a8a", false);
-  return plot.svg();
+  return standing_alone(plot.svg());
 }
 
 }   // namespace bedload

@@ -9,6 +9,7 @@
 
 #include "base/build_info.hpp"
 #include "studies/mesh_table.hpp"
+#include "studies/svg_plot.hpp"
 
 namespace bedload {
 
@@ -18,19 +19,6 @@ std::string of_row(const ValidationRow& row, double number, bool with_sign) {
   const auto text = with_sign ? fmt::format("{:+.2g}", row.band.relative ? 100 * number : number)
                               : fmt::format("{:.3g}", row.band.relative ? 100 * number : number);
   return row.band.relative ? text + " %" : text;
-}
-
-/// A picture in a report takes the page's style; alone in its file it brings its own.
-std::string standing_alone(const std::string& svg) {
-  constexpr std::string_view style =
-      "<style>svg{font:12px 'Liberation Sans','DejaVu Sans',sans-serif;fill:#333;background:#fff}"
-      ".grid{stroke:#dfe4e7}.fine{stroke:#eff2f3}.frame{fill:none;stroke:#7d8890}.axis{font-size:13px;fill:#22292e}"
-      ".heading{font-weight:600;fill:#22292e}</style>";
-  constexpr std::string_view opening = "<svg ";
-  const auto end = svg.find('>');
-  if (!svg.starts_with(opening) || end == svg.npos) return svg;
-  return fmt::format("<svg xmlns='http://www.w3.org/2000/svg' {}{}{}\n",
-                     svg.substr(opening.size(), end + 1 - opening.size()), style, svg.substr(end + 1));
 }
 
 /// A phrase as the beginning of a sentence.
