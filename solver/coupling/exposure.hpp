@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/coupling/quad.hpp"
 #include "solver/grains/grains.hpp"
 #include "solver/grains/neighbour_search.hpp"
 
@@ -16,14 +17,19 @@ namespace bedload {
 
 /// Up to which height each grain is sheltered, in radii above its centre: -1 = it stands free, 1 = to its top or more. Mean
 /// over sixteen directions round the horizon of the highest top of the grains which stand in that direction, as wide as they
-/// are, nearer than twice touching; -1 where none does; cut to -1..1. By id; the order of neighbours does not matter.
+/// are, nearer than twice touching; -1 where none does; cut to -1..1. By id; the order of neighbours does not matter. All calls are
+/// for one box: pairs found before serve again.
 class Sheltering {
  public:
   std::span<const double> find(const PeriodicBox&, const Grains&);
 
  private:
-  PairList pairs_;
-  std::vector<double> reach_, highest_, level_;
+  void list_pairs(const PeriodicBox&, const Grains&);
+
+  PairList pairs_;   // of `origin_` and `diameter_`, with a skin
+  std::vector<Vec3> origin_;
+  std::vector<double> diameter_, level_;
+  std::vector<Quad> highest_;   // of four directions each
 };
 
 /// Mean height of a sphere's frontal area above its centre, only slices above `level` counted [radii]:

@@ -113,5 +113,25 @@ TEST(Exposure, ASmallGrainBehindALargeOneIsHidden) {
   EXPECT_NEAR(level[1], (2 * 0 - 14) / 16.0, 1e-12);
 }
 
+TEST(Exposure, GrainsThatMoveFindWhatAFreshSearchFinds) {
+  Grains grains = grains_at({{5, 5, 0.5}, {9.9, 5.1, 0.7}, {5, 8.5, 0.9}});
+  Sheltering kept;
+  std::size_t met = 0;
+  for (int step = 0; step < 200; ++step) {
+    grains.position[1].x += 0.043;   // across the seam, and by the first
+    if (grains.position[1].x >= 10) grains.position[1].x -= 10;
+    grains.position[2].y -= 0.011;
+    Sheltering fresh;
+    const auto level = kept.find(box_of(10), grains), expected = fresh.find(box_of(10), grains);
+    for (std::size_t p = 0; p < grains.size(); ++p) EXPECT_EQ(level[p], expected[p]) << step << ' ' << p;
+    met += level[0] > -1;
+  }
+  EXPECT_GT(met, 20u);
+  EXPECT_LT(met, 190u);
+  grains.diameter[2] = 4;   // as large, it shelters where it did not
+  Sheltering fresh;
+  EXPECT_EQ(kept.find(box_of(10), grains)[0], fresh.find(box_of(10), grains)[0]);
+}
+
 }   // namespace
 }   // namespace bedload
