@@ -12,6 +12,7 @@
 #include "base/durable_file.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/units.hpp"
 #include "scheduler/bed_sharing.hpp"
 #include "scheduler/progress.hpp"
 #include "solver/required_models.hpp"
@@ -61,6 +62,26 @@ Rows case_rows(const Plan& plan) {
                          {},
                          0.0});
   return rows;
+}
+
+/// What dimensionless groups of the study file have picked, a row per parameter set, digit by digit as a study file takes it.
+Rows picked_rows(const Plan& plan) {
+  Rows rows{{"label", "diameter", "grain density", "viscosity"}, {}};
+  for (const auto& c : plan.cases) {
+    const auto& bed = c.one.scene.bed;
+    std::vector<Value> row{c.one.set_label, shortest(bed.grains.diameter) + " m",
+                           shortest(bed.grains.density) + " kg/m3", shortest(bed.fluid.viscosity) + " m2/s"};
+    if (std::ranges::find(rows.rows, row) == rows.rows.end()) rows.rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+void print_picked(const Study& study, const Plan& plan) {
+  const auto uses = [&](std::string_view group) {
+    return study.settings.contains(group) || std::ranges::find(study.axes, group, &Axis::key) != study.axes.end();
+  };
+  if (!uses("fluid.galileo") && !uses("grains.density_ratio")) return;
+  fmt::print("\nPicked by dimensionless groups:\n{}", printed(picked_rows(plan), Form::table));
 }
 
 using Cases = std::vector<const Case*>;
@@ -147,7 +168,13 @@ void add_scene(nlohmann::ordered_json& object, const Scene& scene) {
 
 void print_plan_as_json(const Plan& plan) {
   auto cases = nlohmann::ordered_json::parse(printed(case_rows(plan), Form::json));
-  for (std::size_t n = 0; n < plan.cases.size(); ++n) add_scene(cases[n], plan.cases[n].one.scene);
+  for (std::size_t n = 0; n < plan.cases.size(); ++n) {
+    const auto& bed = plan.cases[n].one.scene.bed;
+    cases[n]["diameter_m"] = bed.grains.diameter;
+    cases[n]["grain_density_kg_per_m3"] = bed.grains.density;
+    cases[n]["viscosity_m2_per_s"] = bed.fluid.viscosity;
+    add_scene(cases[n], plan.cases[n].one.scene);
+  }
   fmt::print("{}\n", cases.dump(2));
 }
 
@@ -231,6 +258,7 @@ int plan_command(const StudyOptions& options) {
       study.run.cores > 0 ? study.run.cores : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   print_summary(study, plan, place.directory, cores);
   fmt::print("{}", printed(case_rows(plan), Form::table));
+  print_picked(study, plan);
   print_models(plan);
   print_warnings(plan);
   return 0;

@@ -16,6 +16,7 @@
 #include "solver/grains/grain_dynamics.hpp"
 #include "solver/required_models.hpp"
 #include "studies/input_list.hpp"
+#include "studies/properties_by_groups.hpp"
 #include "studies/study_keys.hpp"
 
 namespace bedload {
@@ -96,7 +97,7 @@ void Resolver::measure_in_grains() {
                g = number("box.gravity");
   if (s <= 1)
     no_grain_time = {
-        "grains.density",
+        given("grains.density_ratio") ? "grains.density_ratio" : "grains.density",
         fmt::format("grains of {} kg/m3 do not settle in a fluid of {} kg/m3 and have no grain time \"td\"",
                     number("grains.density"), number("fluid.density"))};
   else if (g <= 0) no_grain_time = {"box.gravity", "without gravity there is no grain time \"td\""};
@@ -365,7 +366,8 @@ void Resolver::dem_step() {
 }
 
 CaseInputs Resolver::run() {
-  take_all({"fluid.density", "fluid.viscosity", "grains.diameter", "grains.density", "box.gravity", "box.slope"});
+  take_all({"fluid.density", "box.gravity", "box.slope"});
+  take_properties(*this);
   models();
   measure_in_grains();
   take_all({"grains.spread", "grains.friction", "grains.restitution", "grains.poisson"});

@@ -53,11 +53,13 @@ constexpr StudyKey keys[] = {
 
     amount("fluid.density", dimension::density, "rhof"),
     amount("fluid.viscosity", dimension::viscosity, "nu"),
+    number("fluid.galileo", Range::positive, "Ga"),
     word("fluid.start", "start", "rest|taylor_green", "rest"),
     amount("fluid.start_speed", dimension::speed, "u0"),
 
     amount("grains.diameter", dimension::length, "d"),
     amount("grains.density", dimension::density, "rho"),
+    number("grains.density_ratio", Range::positive, "sg"),
     number("grains.spread", Range::not_negative, "spread", "0.05"),
     number("grains.friction", Range::not_negative, "mu", "0.4"),
     number("grains.restitution", Range::not_negative, "e", "0.6"),

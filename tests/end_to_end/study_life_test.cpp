@@ -227,6 +227,18 @@ TEST_F(StudyLife, PlansModelsAndNumbersOfEveryCaseInOrderOfTheStudy) {
   EXPECT_NE(group.find("warning: rho9000-s1 and 2 more: a bed "), group.npos) << group;
 }
 
+TEST_F(StudyLife, PlansWithWhatDimensionlessGroupsPicked) {
+  const auto groups = with(small_study, "density = [\"3000 kg/m3\"]", "density_ratio = [3, 2.65]");
+  std::ofstream(here() / "tiny.toml") << groups;
+  const auto plan = bedload(here(), {"plan", "tiny.toml"});
+  EXPECT_EQ(plan.code, 0) << plan.err;
+  const auto picked = plan.out.substr(std::min(plan.out.size(), plan.out.find("Picked by dimensionless groups:")));
+  for (const auto* part : {"sg3 ", "3000 kg/m3", "sg2.65", "2650 kg/m3"})
+    EXPECT_NE(picked.find(part), picked.npos) << plan.out;
+  std::ofstream(here() / "tiny.toml") << small_study;
+  EXPECT_EQ(bedload(here(), {"plan", "tiny.toml"}).out.find("Picked"), plan.out.npos);
+}
+
 // A shallow bed, and terms left out that the rules want.
 TEST_F(StudyLife, SaysBeforeItRunsWhereItsScenesAreOutOfRangeAndKeepsThat) {
   const auto axis = with(small_study, "[\"3000 kg/m3\"]", "[\"3000 kg/m3\", \"2900 kg/m3\"]");

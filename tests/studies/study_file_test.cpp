@@ -30,10 +30,10 @@ TEST(StudyFile, SuggestsTheNearestKey) {
 }
 
 TEST(StudyFile, SaysWhatThereIsWhereNothingIsNear) {
-  EXPECT_TRUE(
-      says(complaint(with(good_study, "spread", "d50")),
-           "grains.d50 is not a key of a study file\nhint: its place takes diameter, density, spread, friction, "
-           "restitution, poisson, rolling_friction, stiffness; "));
+  EXPECT_TRUE(says(complaint(with(good_study, "spread", "d50")),
+                   "grains.d50 is not a key of a study file\nhint: its place takes diameter, density, density_ratio, "
+                   "spread, friction, "
+                   "restitution, poisson, rolling_friction, stiffness; "));
   EXPECT_TRUE(says(complaint(with(good_study, "steps = 12", "steps = 12, to = 3")),
                    "drive.shields.to is not a key of a study file\nhint: its place takes from, ratio, step, steps; "));
   EXPECT_TRUE(

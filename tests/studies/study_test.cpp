@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "base/units.hpp"
+#include "solver/dimensionless.hpp"
 #include "studies/case_entry.hpp"
 #include "studies/case_identity.hpp"
 #include "tests/studies/study_fixture.hpp"
@@ -65,6 +67,79 @@ TEST(Study, MeasuresInGrainsOfEachCase) {
   EXPECT_DOUBLE_EQ(cases[0].scene.bed.length.x, 5e-3);
   EXPECT_DOUBLE_EQ(cases[7].scene.bed.length.x, 6e-3);
   EXPECT_EQ(cases[0].scene.grid.cells, (std::array{5, 3, 26}));
+}
+
+/// The study at Ga^2 = 5 with d or nu left to the program; `given` says the other.
+std::string by_galileo(const std::string& fluid, const std::string& grains) {
+  return with(with(with(good_study, "viscosity = \"1.0e-5 m2/s\"", "galileo = 2.2360679775\n" + fluid),
+                   "diameter = [\"0.5 mm\", \"0.6 mm\"]", grains),
+              "density = [\"2000 kg/m3\", \"3000 kg/m3\"]", "density_ratio = [1.5, 3]");
+}
+
+// d = (Ga nu)^(2/3)/((s-1) g)^(1/3): 0.467 mm at s = 1.5, 0.294 mm at s = 3.
+TEST(Study, PicksTheDiameterOfAGalileoNumber) {
+  const auto cases = cases_of(by_galileo("viscosity = \"1.0e-5 m2/s\"", ""));
+  ASSERT_EQ(cases.size(), 4u);
+  EXPECT_EQ(cases[0].label, "sg1.5-s1");
+  EXPECT_NEAR(cases[0].scene.bed.grains.diameter, std::cbrt(5 * 1e-10 / (0.5 * 9.81)), 1e-9);
+  EXPECT_NEAR(cases[2].scene.bed.grains.diameter, std::cbrt(5 * 1e-10 / (2 * 9.81)), 1e-9);
+  EXPECT_NEAR(cases[0].scene.bed.grains.diameter, 0.467e-3, 0.0005e-3);
+  EXPECT_NEAR(cases[2].scene.bed.grains.diameter, 0.294e-3, 0.0005e-3);
+  EXPECT_EQ(cases[0].scene.bed.grains.density, 1500);
+  EXPECT_EQ(cases[2].scene.bed.grains.density, 3000);
+  EXPECT_DOUBLE_EQ(cases[0].scene.bed.length.x, 10 * cases[0].scene.bed.grains.diameter);
+  for (const auto& one : cases) {
+    const auto& bed = one.scene.bed;
+    EXPECT_NEAR(galileo_number(bed.grains.density / 1000, 9.81, bed.grains.diameter, bed.fluid.viscosity),
+                std::sqrt(5.0), 1e-4);
+  }
+}
+
+TEST(Study, PicksTheViscosityOfAGalileoNumber) {
+  const auto cases = cases_of(by_galileo("", "diameter = \"0.5 mm\""));
+  ASSERT_EQ(cases.size(), 4u);
+  EXPECT_NEAR(cases[0].scene.bed.fluid.viscosity, std::sqrt(0.5 * 9.81 * 1.25e-10 / 5), 1e-10);
+  EXPECT_NEAR(cases[2].scene.bed.fluid.viscosity, std::sqrt(2 * 9.81 * 1.25e-10 / 5), 1e-10);
+}
+
+TEST(Study, TakesGalileoNumbersAsAnAxis) {
+  const auto text = with(by_galileo("", "diameter = \"0.5 mm\""), "galileo = 2.2360679775", "galileo = [2, 4]");
+  const auto cases = cases_of(text);
+  ASSERT_EQ(cases.size(), 8u);
+  EXPECT_EQ(cases[0].label, "Ga2-sg1.5-s1");
+  EXPECT_NEAR(cases[0].scene.bed.fluid.viscosity / cases[4].scene.bed.fluid.viscosity, 2, 1e-5);
+}
+
+TEST(Study, OfGroupsIsTheStudyOfWhatTheyPick) {
+  const auto groups = with(by_galileo("viscosity = \"1.0e-5 m2/s\"", ""), "[1.5, 3]", "1.5");
+  const double d = cases_of(groups)[0].scene.bed.grains.diameter;
+  const auto written = with(with(good_study, "[\"0.5 mm\", \"0.6 mm\"]", "\"" + shortest(d) + " m\""),
+                            "[\"2000 kg/m3\", \"3000 kg/m3\"]", "\"1500 kg/m3\"");
+  EXPECT_EQ(ids_of(groups), ids_of(written));
+  for (const auto& one : cases_of(groups)) {
+    EXPECT_FALSE(one.inputs.has("fluid.galileo"));
+    EXPECT_FALSE(one.inputs.has("grains.density_ratio"));
+  }
+}
+
+TEST(Study, FindsTwinsAmongGroups) {
+  const auto text = by_galileo("", "diameter = \"0.5 mm\"");
+  EXPECT_TRUE(says(complaint(with(text, "2.2360679775", "[2.2360679775, 2.23606797749]")), "are the same case"));
+}
+
+TEST(Study, RefusesGroupsThatSayTooMuchOrTooLittle) {
+  EXPECT_TRUE(says(complaint(by_galileo("viscosity = \"1.0e-5 m2/s\"", "diameter = \"0.5 mm\"")),
+                   "fluid.galileo: grains.diameter and fluid.viscosity are given too, and say it already\n"
+                   "hint: leave out one of fluid.galileo, grains.diameter and fluid.viscosity"));
+  EXPECT_TRUE(
+      says(complaint(by_galileo("", "")), "fluid.galileo: neither grains.diameter nor fluid.viscosity is given"));
+  EXPECT_TRUE(says(complaint(with(good_study, "spread = 0.05", "density_ratio = 2")),
+                   "grains.density_ratio: grains.density is given too, and with fluid.density says it already\n"
+                   "hint: leave out grains.density or grains.density_ratio"));
+  const auto weightless = with(by_galileo("", "diameter = \"0.5 mm\""), "[1.5, 3]", "1");
+  EXPECT_TRUE(says(complaint(weightless), "fluid.galileo: grains without submerged weight"));
+  const auto light = with(by_galileo("", "diameter = \"0.5 mm\""), "[1.5, 3]", "0.9");
+  EXPECT_TRUE(says(complaint(light), "grains.density_ratio: grains of 900 kg/m3 do not settle"));
 }
 
 TEST(Study, SmoothsByWidthsInGrainsAndKeepsIdsWithoutAny) {
