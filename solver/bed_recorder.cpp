@@ -241,6 +241,14 @@ void BedRecorder::close_hold(State& state) {
   record_profiles_of(state, double(search.hold));
 }
 
+void BedRecorder::record_settled_bed(State& state) const {
+  constexpr double before_the_ramp = -1;
+  auto& settled = state.record.settled;
+  settled.solid_fraction = 1 - bed_surface(state.grains, scene_.bed.length, scene_.bed.grains.diameter).porosity;
+  settled.coordination = coordination(state.contacts, state.grains.size());
+  record_profiles_of(state, before_the_ramp);
+}
+
 void BedRecorder::record_profiles_of(State& state, double hold) const {
   record_profiles(state.grains, state.fluid, scene_.grid, scene_.bed.grains.diameter, state.search.lid_speed, hold,
                   state.record.profiles);

@@ -20,10 +20,11 @@ class BedRecorder {
   void after_step(State&, const StepHealth&, const StepBooks&);
   /// At the end of a hold: its row and its profiles.
   void close_hold(State&);
-  /// Profiles under the number `hold` (-1 = the bed before the ramp).
-  void record_profiles_of(State&, double hold) const;
+  /// The bed as the flow finds it: packing, coordination, and profiles as those of hold -1.
+  void record_settled_bed(State&) const;
 
  private:
+  void record_profiles_of(State&, double hold) const;
   void close_block(State&) const;
   HoldVerdict verdict_of(const State&) const;
   void record_sample(State&, const StepHealth&);

@@ -63,6 +63,9 @@ struct Experiment::Parts {
   SettledBed settled;   // where a search begins its holds
 
   std::optional<PlannedHold> next_hold(const BedRecord&) const;
+  void start(State&);
+  void start_shear(State&) const;
+  void end_shear(State&);
   void start_ramp(State&);
   void return_to_settled_bed(State&);
   StepHealth pack(State&);
@@ -85,7 +88,7 @@ State Experiment::begin() const {
   State state;
   state.fluid = initial_flow(parts_->scene);
   state.grains = place_grains(parts_->scene.bed);
-  if (!needs_settling(parts_->scene.bed)) parts_->start_ramp(state);
+  if (!needs_settling(parts_->scene.bed)) parts_->start(state);
   return state;
 }
 
@@ -93,7 +96,7 @@ State Experiment::begin_on(State settled) const {
   settled.fluid = initial_flow(parts_->scene);   // a bed's grid is not this scene's
   settled.search = {};
   settled.record = {};
-  parts_->start_ramp(settled);
+  parts_->start(settled);
   return settled;
 }
 
@@ -124,7 +127,7 @@ StepHealth Experiment::Parts::pack(State& state) {
   state.clock.time += progress.dt;
   if (progress.settled) {
     renumber_in_space(scene.bed, state.grains, state.contacts);
-    start_ramp(state);
+    start(state);
   }
   StepHealth health;
   health.dt = progress.dt;
@@ -149,12 +152,37 @@ std::optional<PlannedHold> Experiment::Parts::next_hold(const BedRecord& record)
   return PlannedHold{HoldPurpose::ramp, hold < levels.size() ? levels[hold] : 0, scene.drive.dwell, false};
 }
 
+/// The bed has come to rest: as it was poured, or after its shear.
+void Experiment::Parts::start(State& state) {
+  const bool sheared = state.search.purpose == std::uint64_t(HoldPurpose::shear);
+  if (scene.shear.time > 0 && !sheared && !scene.bed_only) start_shear(state);
+  else start_ramp(state);
+}
+
+void Experiment::Parts::start_shear(State& state) const {
+  state.search.purpose = std::uint64_t(HoldPurpose::shear);
+  state.clock.time = -scene.shear.time;
+  state.search.phase = Search::holding;
+}
+
+/// The flow is taken away, and the bed comes to rest as it did when it was poured. Of the shear its flux is remembered alone.
+void Experiment::Parts::end_shear(State& state) {
+  recorder.close_hold(state);
+  const double flux = state.record.holds.flux.back();
+  state.record = {};
+  state.record.settled.shear_flux = flux;
+  state.fluid = initial_flow(scene);
+  state.search = {};                                          // packing, ...
+  state.search.purpose = std::uint64_t(HoldPurpose::shear);   // ... not for the first time
+  state.clock.time = 0;
+}
+
 /// The bed is as the flow will find it: the ramp's clock starts here.
 void Experiment::Parts::start_ramp(State& state) {
-  constexpr double before_the_ramp = -1;
   if (scene.onset.method == Onset::Method::bisect) settled = {state.grains, state.contacts};
-  recorder.record_profiles_of(state, before_the_ramp);
+  recorder.record_settled_bed(state);
   state.clock.time = 0;
+  state.search.purpose = std::uint64_t(HoldPurpose::ramp);
   state.search.phase = scene.bed_only ? Search::finished : Search::holding;
 }
 
@@ -167,6 +195,7 @@ StepHealth Experiment::Parts::hold(State& state) {
   recorder.after_step(state, health, coupler.books());
   if (state.clock.time - search.hold_start < search.duration) return health;
 
+  if (search.purpose == std::uint64_t(HoldPurpose::shear)) return end_shear(state), health;
   recorder.close_hold(state);
   if (next_hold(state.record)) {
     ++search.hold;
@@ -207,7 +236,9 @@ StepHealth Experiment::Parts::coupled_step(State& state) {
 /// Momentum crosses the gap in H^2/(pi^2 nu), far longer than a dwell: the steady flow of the new level is set at once.
 void Experiment::Parts::begin_hold(State& state) {
   Search& search = state.search;
-  const PlannedHold plan = *next_hold(state.record);
+  const bool shear = search.purpose == std::uint64_t(HoldPurpose::shear);
+  const PlannedHold plan =
+      shear ? PlannedHold{HoldPurpose::shear, scene.shear.shields, scene.shear.time, false} : *next_hold(state.record);
   if (plan.from_settled) return_to_settled_bed(state);
   search.purpose = static_cast<std::uint64_t>(plan.purpose);
   search.level = plan.level, search.duration = plan.duration;

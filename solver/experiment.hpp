@@ -1,4 +1,4 @@
-// The experiment on one bed: pack, then hold after hold of the ramp, recording, until onset is confirmed or the ramp ends.
+// The experiment on one bed: pack, shear and let rest if it is to have that history, then hold after hold of the ramp, recording, until onset is confirmed or the ramp ends.
 #pragma once
 
 #include <memory>
@@ -17,9 +17,9 @@ class Experiment {
 
   /// The state before anything has moved: grains placed, fluid at rest; phase packing, or holding if nothing needs to settle.
   State begin() const;
-  /// A settled bed (the final state of a bed directory) as the start of this scene's ramp.
+  /// A settled bed (the final state of a bed directory) as the start of this scene's ramp, or of the shear before it.
   State begin_on(State settled) const;
-  /// The settled bed that a search branches from, for a state that was taken up again. Not needed where `begin` or
+  /// The settled (and sheared) bed that a search branches from, for a state that was taken up again. Not needed where `begin` or
   /// `begin_on` was asked, or where nothing needs to settle.
   void branch_from(const State& settled);
   /// A finished state whose ramp this scene has not ended (more levels, another onset criterion) goes on with the next

@@ -93,6 +93,17 @@ void check_drive(const Scene& scene, Found& found) {
         {"drive.shields.from", "grains without submerged weight have no Shields number", "drive by speed or gradient"});
 }
 
+void check_shear(const Scene& scene, Found& found) {
+  if (scene.shear.time == 0) return;
+  if (!needs_settling(scene.bed))
+    found.push_back({"bed.shear.shields", "only a bed that settles can be sheared and come to rest again",
+                     "bed.source = \"poured\", or leave bed.shear out"});
+  if (scene.drive.kind == FlowRamp::Kind::none || scene.drive.quantity != FlowRamp::Quantity::shields)
+    found.push_back({"bed.shear.shields",
+                     "a bed is sheared by the drive of the study, which has no Shields numbers here",
+                     "give levels by drive.shields, or leave bed.shear out"});
+}
+
 /// Terms that act by the drag coefficient, are cut to half of it (lifts) or correct it; the viscous torque has its own.
 constexpr NamedTerm beside_drag[] = {{"self_disturbance", &Terms::self_disturbance},
                                      {"shear_lift", &Terms::shear_lift},
@@ -209,6 +220,7 @@ std::vector<SceneProblem> problems_of(const Scene& scene) {
   check_fit(scene.bed, found);
   check_grid(scene, found);
   check_drive(scene, found);
+  check_shear(scene, found);
   check_terms(scene, found);
   check_smoothing(scene, found);
   check_roughness(scene, found);

@@ -75,6 +75,12 @@ struct Onset {
   double hold = 0;         // of a bisection: how long a level is held [s]
 };
 
+/// What a settled bed goes through before the flow of the study: a Shields number, held for a time, then rest.
+struct BedShear {
+  double shields = 0;   // [-]
+  double time = 0;      // [s]; 0 = none
+};
+
 struct Steps {
   double fluid_interval = 0;   // longest fluid step asked for [s]: 10 DEM steps, or the study file's
   bool beyond_limit = false;   // DEM steps of more than 0.3 Rayleigh times are allowed, to measure what they do
@@ -93,6 +99,7 @@ struct Scene {
   FluidStart fluid_start = FluidStart::rest;
   double start_speed = 0;        // of the Taylor-Green vortices [m/s]
   double bottom_roughness = 0;   // k_s of the bottom wall [m]; 0 = smooth
+  BedShear shear;
   Onset onset;
   DragLawName drag = DragLawName::di_felice;
   Terms terms;

@@ -13,7 +13,7 @@ namespace bedload {
 
 struct Clock {
   std::uint64_t step = 0;    // fluid steps (while packing: intervals) done; never decreases, names the checkpoint files
-  double time = 0;           // [s] since the ramp began; while packing since pouring began
+  double time = 0;           // [s] since the ramp began, negative before; while packing since grains were let go
   double longest_step = 0;   // ceiling of the fluid step since one had to be retried [s]; 0 = none
   std::uint64_t good_steps = 0;   // since the ceiling last changed
   std::uint64_t retries = 0;      // steps undone and taken again shorter, in all
@@ -140,6 +140,10 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("search/block_events", s.search.block_events, "1");
   visit("search/block_events_squared", s.search.block_events_squared, "1");
 
+  visit("record/settled/solid_fraction", s.record.settled.solid_fraction, "1");
+  visit("record/settled/coordination", s.record.settled.coordination, "1");
+  visit("record/settled/shear_flux", s.record.settled.shear_flux, "1");
+
   auto& p = s.record.samples;
   visit("record/samples/time", p.time, "s");
   visit("record/samples/hold", p.hold, "1");
@@ -205,7 +209,7 @@ void State::each_field(Self& s, Visit&& visit) {
   static_assert(sizeof(FluidState) == 4 * sizeof(Field<Centre>) + 8);
   static_assert(sizeof(Grains) == 9 * sizeof(std::vector<Vec3>) &&
                 sizeof(ContactHistory) == 5 * sizeof(std::vector<Vec3>));
-  static_assert(sizeof(BedRecord) == (12 + 18 + 21 + 5 + 11) * sizeof(std::vector<double>));
+  static_assert(sizeof(BedRecord) == 3 * 8 + (12 + 18 + 21 + 5 + 11) * sizeof(std::vector<double>));
 }
 
 /// SHA-256 over each_field: name, unit, shape, little-endian bytes of the interior. Hexadecimal.

@@ -55,6 +55,7 @@ class Resolver : InputList {
   void bed();
   void bed_table();
   void count_from_depth();
+  void shear();
   void suspension();
   double mean_grain_volume() const;
   void drive();
@@ -157,6 +158,14 @@ void Resolver::bed() {
   if (source == "file") bed_table();
 }
 
+/// A shear of zero is none, and leaves the case as it is; as an axis it may stand beside others, which have a time.
+void Resolver::shear() {
+  if (!given("bed.shear.shields")) return refuse("bed.shear.time", "bed.shear.shields is missing, and 0 is no shear");
+  take("bed.shear.shields");
+  if (number("bed.shear.shields") == 0) inputs.values.erase("bed.shear.shields");
+  else take("bed.shear.time");
+}
+
 void Resolver::suspension() {
   take("bed.seed");
   take_unless_default("bed.motion");
@@ -254,7 +263,8 @@ void Resolver::duration() {
   const auto table = staircase_of(inputs);
   const double levels = table.empty() ? 1 : number(joined(table, "steps"));
   const double searched = inputs.has("onset.hold") ? most_holds * number("onset.hold") : 0;
-  const double count = (levels * number("drive.dwell") + searched) / number("steps.dem");
+  const double sheared = inputs.has("bed.shear.time") ? number("bed.shear.time") : 0;
+  const double count = (levels * number("drive.dwell") + searched + sheared) / number("steps.dem");
   if (count <= most_steps) return;
   problem("drive.dwell",
           fmt::format("{:.0f} times {:.3g} s are {:.3g} DEM steps, more than the {:.3g} that a clock can count", levels,
@@ -381,6 +391,7 @@ CaseInputs Resolver::run() {
   if (given("record.tracks")) take("record.tracks");
   else inputs.values["record.tracks"] = std::vector<std::uint64_t>{};
   bed();
+  shear();
   if (no_problems() && complete()) grains();
   if (no_problems() && complete()) wanted();
   if (no_problems() && complete()) stiffness();
@@ -410,6 +421,7 @@ std::string_view staircase_of(const CaseInputs& inputs) {
 CaseInputs bed_inputs(const CaseInputs& inputs) {
   CaseInputs bed{.values = {}, .csv = inputs.csv, .bed_only = true};
   for (const auto& [key, value] : inputs.values) {
+    if (key.starts_with("bed.shear.")) continue;   // comes after
     const bool felt =
         key.starts_with("fluid.") || key.starts_with("grains.") || key.starts_with("bed.") || key.starts_with("box.");
     if (felt && !key.starts_with("box.cell.")) bed.values.emplace(key, value);

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 
@@ -56,6 +57,10 @@ class Worker {
   void publish();
   void finish();
   bool reached() const;
+  /// Where the holds of a search find the bed that they branch from.
+  fs::path branched_bed() const { return directory_ / (case_.scene.shear.time > 0 ? "sheared.h5" : "bed.h5"); }
+  void say_how_the_shear_went() const;
+  bool is_sheared_now() const { return state_.search.purpose == std::uint64_t(HoldPurpose::shear); }
   bool searches() const { return case_.scene.onset.method == Onset::Method::bisect; }
   bool asked_to_stop() const { return StopSignals::arrived() || requested_; }
   void say(const std::string& line) const { request_.report(line); }
@@ -86,7 +91,7 @@ State Worker::first_state() {
   const bool has_bed = !case_.scene.bed_only && fs::exists(directory_ / "bed.h5");
   if (auto newest = checkpoints_.newest()) {
     published_step_ = newest->clock.step;
-    if (has_bed && searches()) experiment_.branch_from(read_checkpoint(directory_ / "bed.h5"));
+    if (searches() && fs::exists(branched_bed())) experiment_.branch_from(read_checkpoint(branched_bed()));
     return std::move(*newest);
   }
   return has_bed ? experiment_.begin_on(read_checkpoint(directory_ / "bed.h5")) : experiment_.begin();
@@ -147,8 +152,9 @@ int Worker::advance() {
 void Worker::step() {
   const bool coupled = state_.search.phase == Search::holding;
   const auto health = experiment_.step(state_);
-  const bool settled = !coupled && state_.search.phase == Search::holding;
-  if (settled && searches()) write_checkpoint(directory_ / "bed.h5", state_);   // its holds come back to it
+  const bool settled = !coupled && state_.search.phase == Search::holding && !is_sheared_now();
+  if (settled && searches()) write_checkpoint(branched_bed(), state_);   // its holds come back to it
+  if (settled && case_.scene.shear.time > 0) say_how_the_shear_went();
   if (const auto cause = ailment(health); !cause.empty()) {
     throw Error(
         ErrorKind::numerical,
@@ -157,6 +163,19 @@ void Worker::step() {
         "the checkpoint before is kept; a shorter steps.dem or steps.fluid, or stiffer grains, may help");
   }
   if (coupled) performance_.add(health, state_.grains.size(), case_.scene.grid.cell_count());
+}
+
+void Worker::say_how_the_shear_went() const {
+  const auto& bed = state_.record.settled;
+  say(fmt::format(
+      "sheared at theta = {:.4g} and at rest again: flux {:.3g} at the end of the shear; solid fraction {:.4f}, "
+      "coordination {:.3f}",
+      case_.scene.shear.shields, bed.shear_flux, bed.solid_fraction, bed.coordination));
+  if (bed.shear_flux >= case_.scene.onset.value)
+    log_warning(
+        fmt::format("{}: its bed was moving while it was sheared (flux {:.3g}): bed.shear.shields = {:.4g} is not "
+                    "below its onset",
+                    case_.label, bed.shear_flux, case_.scene.shear.shields));
 }
 
 void Worker::beat() {
@@ -170,9 +189,9 @@ void Worker::beat() {
   beat.step = state_.clock.step;
   beat.phase = search.phase == Search::packing   ? "packing"
                : search.phase != Search::holding ? "finished"
-               : searches()                      ? std::string(name_of(HoldPurpose(search.purpose)))
+               : searches() || is_sheared_now()  ? std::string(name_of(HoldPurpose(search.purpose)))
                                                  : "ramp";
-  beat.time = search.phase == Search::packing ? 0 : state_.clock.time;
+  beat.time = search.phase == Search::packing ? 0 : std::max(0.0, state_.clock.time);
   beat.planned_time = case_.scene.bed_only ? 0 : planned_time(case_.scene);
   beat.hold = static_cast<int>(search.hold) + 1;
   beat.holds = searches() ? 0 : static_cast<int>(case_.scene.drive.levels.size());

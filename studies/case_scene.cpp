@@ -146,6 +146,8 @@ Scene scene_of(const CaseInputs& inputs) {
   scene.onset.value = inputs.number("onset.value");
   if (inputs.has("onset.bracket")) scene.onset.bracket = inputs.number("onset.bracket");
   scene.onset.hold = number_or_zero(inputs, "onset.hold");
+  scene.shear = {.shields = number_or_zero(inputs, "bed.shear.shields"),
+                 .time = number_or_zero(inputs, "bed.shear.time")};
   scene.drag = drag_law_named(inputs.word("models.drag"));
   scene.terms = terms_of(inputs);
   scene.smoothing = {.xy = number_or_zero(inputs, "models.smoothing.xy"),

@@ -91,7 +91,7 @@ Cost predicted_cost(const Scene& scene) {
   const double checkpoint =
       grains * (bytes_per_grain + contacts_per_grain * bytes_per_contact) + cells * bytes_per_cell;
   if (scene.bed_only) return {grains * packing_steps / grain_steps_per_second, 2 * checkpoint};
-  const double time = planned_time(scene);
+  const double time = planned_time(scene) + scene.shear.time;
   Cost cost;
   cost.core_seconds = grains * time / scene.bed.dem_step / grain_steps_per_second +
                       cells * time / scene.steps.fluid_interval * seconds_per_cell_step;

@@ -101,6 +101,11 @@ CREATE TABLE IF NOT EXISTS thresholds (            -- per case and criterion
   method                    TEXT NOT NULL,         -- ramp (screening) | bisect
   stop_lower                REAL,                  -- theta_stop: where a moving bed came to rest, and where it did not
   stop_upper                REAL,
+  bed_solid_fraction        REAL,                  -- of the bed that the holds began with, in its bulk
+  bed_coordination          REAL,
+  shear_shields             REAL,                  -- at which it was sheared before; NULL = as poured
+  shear_s                   REAL,                  -- for how long
+  shear_flux                REAL,                  -- event flux in the last half of that
   PRIMARY KEY (case_id, criterion, value)
 ) STRICT;
 

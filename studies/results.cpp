@@ -130,28 +130,41 @@ void store_health_of_hold(Database& database, const std::string& case_id, std::u
   insert(database, "step_health", row);
 }
 
-void store_searched(Database& database, const CaseIdentity& id, const Onset& onset, const BedRecord& record) {
+/// A row of `thresholds`, with the bed that it was measured on.
+void insert_threshold(Database& database, const Scene& scene, const BedRecord& record, std::vector<Value> row) {
+  const auto& bed = record.settled;
+  const bool sheared = scene.shear.time > 0;
+  const auto if_known = [](bool known, double number) { return known ? Value(number) : Value(); };
+  for (const Value& value :
+       {if_known(bed.solid_fraction > 0, bed.solid_fraction), if_known(bed.solid_fraction > 0, bed.coordination),
+        if_known(sheared, scene.shear.shields), if_known(sheared, scene.shear.time), if_known(sheared, bed.shear_flux)})
+    row.push_back(value);
+  insert(database, "thresholds", row);
+}
+
+void store_searched(Database& database, const CaseIdentity& id, const Scene& scene, const BedRecord& record) {
   const SearchedMotion found = searched_motion(record);
-  insert(database, "thresholds",
-         {id.id, std::string("flux"), onset.value, flag(true), std::string(name_of(found.onset.status)),
-          real_or_null(found.onset.shields), real_or_null(found.onset.lower), real_or_null(found.onset.upper),
-          std::string("bisect"), real_or_null(found.stop_lower), real_or_null(found.stop_upper)});
+  insert_threshold(database, scene, record,
+                   {id.id, std::string("flux"), scene.onset.value, flag(true), std::string(name_of(found.onset.status)),
+                    real_or_null(found.onset.shields), real_or_null(found.onset.lower), real_or_null(found.onset.upper),
+                    std::string("bisect"), real_or_null(found.stop_lower), real_or_null(found.stop_upper)});
 }
 
 /// The study's own criterion, and flux at 1e-3 (where rearrangements begin to count) and 1e-2 for every study alike.
-void store_thresholds(Database& database, const CaseIdentity& id, const Onset& onset, const BedRecord& record) {
+void store_thresholds(Database& database, const CaseIdentity& id, const Scene& scene, const BedRecord& record) {
+  const Onset& onset = scene.onset;
   if (onset.method == Onset::Method::none) return;
-  if (onset.method == Onset::Method::bisect) return store_searched(database, id, onset, record);
+  if (onset.method == Onset::Method::bisect) return store_searched(database, id, scene, record);
   using Criterion = Onset::Criterion;
   std::set<std::pair<Criterion, double>> wanted{{Criterion::flux, 1e-3}, {Criterion::flux, 1e-2}};
   wanted.emplace(onset.criterion, onset.value);
   for (const auto& [criterion, value] : wanted) {
     const IncipientMotion found = incipient_motion(record, criterion, value);
     const bool decides = criterion == onset.criterion && value == onset.value;
-    insert(database, "thresholds",
-           {id.id, std::string(criterion == Criterion::flux ? "flux" : "moving_fraction"), value, flag(decides),
-            std::string(name_of(found.status)), real_or_null(found.shields), real_or_null(found.lower),
-            real_or_null(found.upper), std::string("ramp"), Value(), Value()});
+    insert_threshold(database, scene, record,
+                     {id.id, std::string(criterion == Criterion::flux ? "flux" : "moving_fraction"), value,
+                      flag(decides), std::string(name_of(found.status)), real_or_null(found.shields),
+                      real_or_null(found.lower), real_or_null(found.upper), std::string("ramp"), Value(), Value()});
   }
 }
 
@@ -192,7 +205,7 @@ void store_results(Database& database, const CaseIdentity& id, const Scene& scen
   store_scene(database, id, scene, state);
   store_ramp(database, id, scene, state.record.holds);
   store_health(database, id.id, state);
-  store_thresholds(database, id, scene.onset, state.record);
+  store_thresholds(database, id, scene, state.record);
   store_profiles(database, id, state.record.profiles);
   store_samples(database, id, state.record.samples);
   store_tracks(database, id, state.record.tracks);

@@ -73,6 +73,8 @@ constexpr StudyKey keys[] = {
     number("bed.solid_fraction", Range::positive, "phi"),
     word("bed.motion", "motion", "free|fixed", "free"),
     text("bed.file", "file"),
+    number("bed.shear.shields", Range::not_negative, "shear", "0"),
+    amount("bed.shear.time", dimension::time, "sheared", "100 td"),
     count("bed.seed", "s", "1"),
 
     amount("box.length", dimension::length, "L"),

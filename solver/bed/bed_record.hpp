@@ -10,6 +10,11 @@ namespace bedload {
 
 /// Columns of equal length; one row per sample, per finished hold, per profile bin. SI, units as in each_field.
 struct BedRecord {
+  struct SettledBed {   // as the flow finds it
+    double solid_fraction = 0, coordination = 0;
+    double shear_flux = 0;   // in the last half of the shear that it had before, if any
+    bool operator==(const SettledBed&) const = default;
+  } settled;
   struct Samples {   // every record.every seconds
     std::vector<double> time, hold, shields_nominal, shields_measured, bed_height, roughness, coordination, flux,
         moving_fraction, mean_grain_speed, deepest_overlap, momentum_residual;

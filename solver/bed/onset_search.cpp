@@ -105,6 +105,7 @@ std::string_view name_of(HoldPurpose purpose) {
     case HoldPurpose::onset: return "onset";
     case HoldPurpose::stir: return "stir";
     case HoldPurpose::stop: return "stop";
+    case HoldPurpose::shear: return "shear";
   }
   return "ramp";
 }

@@ -13,8 +13,8 @@ namespace bedload {
 
 /// What a hold is for. `staircase`: coarse steps upwards, each from what the last one left, to learn where to look.
 /// `onset`: the settled bed under a flow that is imposed at once. `stir`: the same bed set in motion. `stop`: what a stir
-/// has left, under a weaker flow.
-enum class HoldPurpose : std::uint64_t { ramp = 0, staircase = 1, onset = 2, stir = 3, stop = 4 };
+/// has left, under a weaker flow. `shear`: the history of a bed, before all others and in no record.
+enum class HoldPurpose : std::uint64_t { ramp = 0, staircase = 1, onset = 2, stir = 3, stop = 4, shear = 5 };
 
 /// Arrested: hardly anything moves any more. Mobile: the flux is at or above the criterion, and does not die away.
 /// Undecided: neither.

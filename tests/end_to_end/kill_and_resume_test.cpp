@@ -35,6 +35,11 @@ std::string searched() {
               "[onset]\nmethod = \"bisect\"\nbracket = 0.5\nhold = \"4 td\"\ninterval = \"30 %\"\nbatch = 2\n\n[run]");
 }
 
+/// The same of beds that are sheared before.
+std::string sheared() {
+  return with(searched(), "seed = { count = 3 }", "seed = { count = 3 }\nshear = { shields = 0.04, time = \"20 td\" }");
+}
+
 struct KilledStudy {
   std::string name, text;
   std::size_t directories;   // of beds and cases
@@ -139,8 +144,8 @@ TEST_P(KillAndResume, GivesTheSameBitsAsAnUndisturbedRun) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Studies, KillAndResume,
-                         ::testing::Values(KilledStudy{"ramps", often_saved, 8},
-                                           KilledStudy{"searches", searched(), 6}),
+                         ::testing::Values(KilledStudy{"ramps", often_saved, 8}, KilledStudy{"searches", searched(), 6},
+                                           KilledStudy{"sheared_beds", sheared(), 6}),
                          [](const auto& info) { return info.param.name; });
 
 }   // namespace

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "checkpoint/checkpoint.hpp"
+#include "solver/bed/onset_search.hpp"
 #include "tests/restart/digests_of_a_run.hpp"
 #include "tests/restart/tiny_scenes.hpp"
 
@@ -19,7 +20,9 @@ using Digests = std::vector<std::string>;
 /// Where a run stands before a step, in words that a failure can be found by.
 std::string place(const State& state) {
   const Search& search = state.search;
-  if (search.phase == Search::packing) return "packing";
+  const bool shear = search.purpose == std::uint64_t(HoldPurpose::shear);
+  if (search.phase == Search::packing) return shear ? "coming to rest" : "packing";
+  if (shear) return search.hold_begun ? "in the shear" : "before the shear";
   return (search.hold_begun ? "in hold " : "before hold ") + std::to_string(search.hold);
 }
 

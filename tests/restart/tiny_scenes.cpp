@@ -136,4 +136,12 @@ TinyScene search() {
   return {"search", scene};
 }
 
+TinyScene sheared() {
+  Scene scene = lid_driven().scene;
+  scene.shear = {.shields = 0.8, .time = 30 * scene.steps.fluid_interval};
+  scene.drive.levels = {0.05, 1.5};
+  validate(scene);
+  return {"sheared", scene};
+}
+
 }   // namespace bedload::test

@@ -36,9 +36,12 @@ TinyScene taken_again();
 /// A layer of grains on the bottom, searched for its threshold: holds that branch from where it stood at first.
 TinyScene search();
 
+/// The lid's bed, sheared and come to rest again before its ramp.
+TinyScene sheared();
+
 inline std::vector<TinyScene> tiny_scenes() {
   return {lid_driven(), stream_on_a_slope(), suspension(), syrup_through_a_layer(),
-          every_term(), taken_again(),       search()};
+          every_term(), taken_again(),       search(),     sheared()};
 }
 
 }   // namespace bedload::test

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <string>
 
 #include "base/error.hpp"
 #include "solver/bed/bed_surface.hpp"
@@ -191,6 +194,104 @@ TEST(Experiment, TakesASearchUpAgainOnlyWithTheBedThatItBranchesFrom) {
 
   Experiment without(bed.scene);
   EXPECT_THROW(while (!Experiment::finished(state)) without.step(state), Error);
+}
+
+/// The same bed, sheared for a while before its search.
+struct SearchOfAShearedBed : SearchOfABed {
+  SearchOfAShearedBed() { scene.shear = {.shields = 1.5, .time = 60 * scene.steps.fluid_interval}; }
+};
+
+bool is_shear(const State& state) { return state.search.purpose == std::uint64_t(HoldPurpose::shear); }
+
+TEST(Experiment, ShearsASettledBedAndLetsItComeToRestBeforeTheHoldsBegin) {
+  const SearchOfAShearedBed bed;
+  Experiment experiment(bed.scene);
+  State state = experiment.begin_on(bed.settled);
+  EXPECT_EQ(state.clock.time, -bed.scene.shear.time);
+  int shearing = 0, resting = 0;
+  while (is_shear(state)) {
+    const bool packing = state.search.phase == Search::packing;
+    ++(packing ? resting : shearing);
+    if (packing) {
+      EXPECT_EQ(state.search.lid_speed, 0);
+      EXPECT_EQ(state.fluid, Experiment(bed.scene).begin().fluid);
+    }
+    experiment.step(state);
+    if (!packing && state.search.phase == Search::holding) {
+      EXPECT_NEAR(state.search.shields, 1.5, 1e-12);
+      EXPECT_LE(state.clock.time, bed.scene.steps.fluid_interval);
+    }
+  }
+  EXPECT_GE(shearing, 60);
+  EXPECT_GE(resting, 1);
+
+  // At rest, elsewhere than it was poured, and with nothing in the record but what the shear did to it.
+  EXPECT_EQ(state.search.phase, Search::holding);
+  EXPECT_EQ(state.clock.time, 0);
+  double energy = 0;
+  for (const Vec3 v : state.grains.velocity) energy += norm2(v) / 2 / (0.5 * 9.81 * d);   // per W' d, s = 2
+  EXPECT_LT(energy / double(state.grains.size()), 2e-6);
+  EXPECT_NE(state.grains.position, bed.settled.grains.position);
+  EXPECT_TRUE(state.record.holds.hold.empty());
+  EXPECT_TRUE(state.record.samples.time.empty());
+  EXPECT_TRUE(std::ranges::all_of(state.record.profiles.hold, [](double hold) { return hold == -1; }));
+  const auto& settled = state.record.settled;
+  EXPECT_GT(settled.shear_flux, 0);   // theta = 1.5 moves a bed
+  EXPECT_DOUBLE_EQ(settled.solid_fraction, 1 - bed_surface(state.grains, bed.scene.bed.length, d).porosity);
+  EXPECT_DOUBLE_EQ(settled.coordination, coordination(state.contacts, state.grains.size()));
+
+  // And every hold that branches begins with this bed.
+  const State rested = state;
+  int branches = 0;
+  while (!Experiment::finished(state)) {
+    const bool begins = state.search.hold_begun == 0;
+    experiment.step(state);
+    if (!begins || state.search.purpose != std::uint64_t(HoldPurpose::onset)) continue;
+    if (state.search.duration > bed.scene.onset.hold) continue;   // goes on
+    ++branches;
+    Scene alone = bed.scene;
+    alone.drive.levels = {state.search.level};
+    alone.onset.method = Onset::Method::none;
+    alone.shear = {};
+    Experiment fresh(alone);
+    State expected = fresh.begin_on(rested);
+    fresh.step(expected);
+    EXPECT_EQ(state.grains, expected.grains) << state.search.hold;
+  }
+  EXPECT_GE(branches, 2);
+  EXPECT_EQ(state.record.settled, settled);
+}
+
+TEST(Experiment, WithoutAShearRemembersThePouredBedThatItsHoldsBeginWith) {
+  const Scene scene = bed_scene(60, FlowRamp::Kind::lid, {0.1});
+  Scene bed_only = scene;
+  bed_only.bed_only = true;
+  const State poured = run(bed_only), state = run(scene);
+  EXPECT_EQ(state.record.settled.shear_flux, 0);
+  EXPECT_DOUBLE_EQ(state.record.settled.coordination, coordination(poured.contacts, poured.grains.size()));
+  EXPECT_GT(state.record.settled.solid_fraction, 0.3);
+}
+
+TEST(Experiment, TakesASearchOfAShearedBedUpAgainWhereverItStood) {
+  const SearchOfAShearedBed bed;
+  Experiment straight(bed.scene);
+  State whole = straight.begin_on(bed.settled), branched;
+  std::map<std::string, State> stops;   // the last of each kind
+  while (!Experiment::finished(whole)) {
+    const bool shear = is_shear(whole), packing = whole.search.phase == Search::packing;
+    stops[packing ? "coming to rest" : shear ? "in the shear" : "in the search"] = whole;
+    straight.step(whole);
+    if (shear && !is_shear(whole)) branched = whole;
+    if (whole.record.holds.hold.size() >= 3) break;
+  }
+  while (!Experiment::finished(whole)) straight.step(whole);
+  ASSERT_EQ(stops.size(), 3u);
+  for (auto& [where, state] : stops) {
+    Experiment anew(bed.scene);
+    if (!is_shear(state)) anew.branch_from(branched);
+    while (!Experiment::finished(state)) anew.step(state);
+    EXPECT_EQ(state_digest(state), state_digest(whole)) << where;
+  }
 }
 
 TEST(Experiment, JudgesTheHoldsOfASearchAndEndsWithABracket) {

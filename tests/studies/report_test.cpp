@@ -41,7 +41,9 @@ class ReportTest : public ::testing::Test {
     database_.execute(
         "INSERT INTO scenes VALUES "
         "('c','label-c','set','set',1,5e-4,0,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,1,'stokes',1,1,1,0)");
-    database_.execute("INSERT INTO thresholds VALUES ('c','flux',0.01,1,'bracketed',0.17,0.15,0.18,'ramp',NULL,NULL)");
+    database_.execute(
+        "INSERT INTO thresholds VALUES "
+        "('c','flux',0.01,1,'bracketed',0.17,0.15,0.18,'ramp',NULL,NULL,0.58,4.5,NULL,NULL,NULL)");
     for (const auto* row : {"0,0,1,0.1,0.1,0,0,0,0,0,0", "1,1,2,0.2,0.2,0,0,0,0,0.5,0.1"})
       database_.execute(std::string("INSERT INTO ramp_points VALUES ('c',") + row +
                         ",0,0,0.1,0.003,0.0005,0.4,5,0,'ramp','none')");

@@ -55,6 +55,7 @@ State finished_state() {
     h.flux.push_back(k < 2 ? 1e-4 : 0.1);
     h.momentum_residual.push_back(k == 0 ? -1 : 1e-9);
   }
+  state.record.settled = {.solid_fraction = 0.58, .coordination = 4.5, .shear_flux = 2e-3};
   state.clock.retries = 3;
   state.record.health.hold = {0};
   double measure = 100;
@@ -110,6 +111,20 @@ TEST_F(ResultsTest, HoldTheThresholdOfEveryCriterionAndMarkTheOneThatDecides) {
   EXPECT_EQ(number("SELECT count(*) FROM thresholds WHERE decides AND value = 0.01 AND status = 'bracketed'"), 1);
   EXPECT_EQ(number("SELECT shields_upper FROM thresholds WHERE decides"), 0.1 * 3);
   EXPECT_EQ(threshold_curve(database_).size(), 1u);
+}
+
+TEST_F(ResultsTest, HoldTheBedOfEveryThresholdAndItsHistory) {
+  store();
+  for (const char* sql : {"SELECT count(*) FROM thresholds WHERE bed_solid_fraction = 0.58 AND bed_coordination = 4.5",
+                          "SELECT count(*) FROM thresholds WHERE shear_shields IS NULL AND shear_s IS NULL AND "
+                          "shear_flux IS NULL"})
+    EXPECT_EQ(number(sql), number("SELECT count(*) FROM thresholds")) << sql;
+  Scene sheared = small_scene();
+  sheared.shear = {.shields = 0.05, .time = 3};
+  store_results(database_, {"id2", "d0.5mm-s2", "set1", "d0.5mm", 2}, sheared, finished_state(), {});
+  EXPECT_EQ(number("SELECT count(*) FROM thresholds WHERE case_id = 'id2' AND shear_shields = 0.05 AND shear_s = 3 AND "
+                   "shear_flux = 2e-3"),
+            number("SELECT count(*) FROM thresholds WHERE case_id = 'id2'"));
 }
 
 TEST_F(ResultsTest, LeaveAMomentumResidualThatIsNotKnownEmpty) {

@@ -31,8 +31,10 @@ class SpareSeeds : public ::testing::Test {
         "(?,?,?,?,?,5e-4,0.05,2000,1000,2,1e-5,9.81,3.5,1e5,300,244,1,1,1,1,1,2e-4,"
         "'di_felice',1,1,1,0)",
         {one.id, one.label, one.set, one.set_label, static_cast<std::int64_t>(one.seed)});
-    database_.execute("INSERT OR REPLACE INTO thresholds VALUES (?,'flux',0.01,1,'bracketed',?,?,?,'bisect',NULL,NULL)",
-                      {one.id, (lower + upper) / 2, lower, upper});
+    database_.execute(
+        "INSERT OR REPLACE INTO thresholds VALUES "
+        "(?,'flux',0.01,1,'bracketed',?,?,?,'bisect',NULL,NULL,0.58,4.5,NULL,NULL,NULL)",
+        {one.id, (lower + upper) / 2, lower, upper});
   }
   /// The first so many seeds of the first parameter set.
   void finish_first(std::uint64_t seeds) {

@@ -142,6 +142,40 @@ TEST(Study, RefusesGroupsThatSayTooMuchOrTooLittle) {
   EXPECT_TRUE(says(complaint(light), "grains.density_ratio: grains of 900 kg/m3 do not settle"));
 }
 
+TEST(Study, ShearsItsBedsAndKeepsIdsWithoutShear) {
+  const auto with_shear = [](const std::string& shear) {
+    return with(good_study, "count = 300", "count = 300\n" + shear);
+  };
+  const auto cases = cases_of(with_shear("shear = { shields = 0.05, time = \"50 td\" }"));
+  EXPECT_EQ(cases[0].scene.shear.shields, 0.05);
+  EXPECT_DOUBLE_EQ(cases[0].scene.shear.time, 2 * cases[0].scene.drive.dwell);   // of 25 td
+  EXPECT_EQ(cases[0].bed_id, cases_of(good_study)[0].bed_id);                    // poured once for all
+  EXPECT_NE(cases[0].id, cases_of(good_study)[0].id);
+  EXPECT_NE(cases[0].id, cases_of(with_shear("shear = { shields = 0.05 }"))[0].id);   // for 100 td
+  EXPECT_EQ(ids_of(with_shear("shear.shields = 0")), ids_of(good_study));
+
+  const auto axis = cases_of(with_shear("shear = { shields = [0, 0.05], time = \"50 td\" }"));
+  ASSERT_EQ(axis.size(), 16u);
+  EXPECT_EQ(axis[0].label, "d0.5mm-rho2000-shear0-s1");
+  EXPECT_EQ(axis[0].id, cases_of(good_study)[0].id);
+  EXPECT_EQ(axis[2].label, "d0.5mm-rho2000-shear0.05-s1");
+  EXPECT_EQ(axis[2].id, cases[0].id);
+}
+
+TEST(Study, RefusesAShearThatNothingCanDo) {
+  const auto with_shear = [](const std::string& text, const std::string& shear) {
+    return with(text, "count = 300", "count = 300\n" + shear);
+  };
+  EXPECT_TRUE(says(complaint(with_shear(good_study, "shear.time = \"50 td\"")),
+                   "bed.shear.time: bed.shear.shields is missing, and 0 is no shear\nhint: leave it out"));
+  const auto by_speed = with(good_study, "shields = { from = 0.06, ratio = 1.2, steps = 12 }", "speed = \"1 mm/s\"");
+  EXPECT_TRUE(says(complaint(with_shear(by_speed, "shear.shields = 0.05")),
+                   "bed.shear.shields: a bed is sheared by the drive of the study"));
+  const auto suspension = with(good_study, "count = 300", "source = \"suspension\"\ncount = 300");
+  EXPECT_TRUE(says(complaint(with_shear(suspension, "shear.shields = 0.05")),
+                   "bed.shear.shields: only a bed that settles can be sheared"));
+}
+
 TEST(Study, SmoothsByWidthsInGrainsAndKeepsIdsWithoutAny) {
   const auto with_widths = [](const char* widths) {
     return with(good_study, "[drive]", std::string("[models]\nsmoothing = ") + widths + "\n[drive]");

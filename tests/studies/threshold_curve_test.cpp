@@ -27,7 +27,7 @@ class ThresholdCurveTest : public ::testing::Test {
         "INSERT INTO scenes VALUES "
         "(?,?,?,?,?,?,0.05,2000,1000,2,1e-5,9.81,3.5,1e5,1500,244,1,1,1,1,1,?,'di_felice',1,1,1,0)",
         {id, id, set, "label-" + set, std::int64_t{seed}, diameter, cell_z});
-    database_.execute("INSERT INTO thresholds VALUES (?,'flux',0.01,1,?,?,?,?,'ramp',?,?)",
+    database_.execute("INSERT INTO thresholds VALUES (?,'flux',0.01,1,?,?,?,?,'ramp',?,?,0.58,4.5,NULL,NULL,NULL)",
                       {id, status, real_or_null(shields), real_or_null(lower), real_or_null(upper),
                        real_or_null(stop.first), real_or_null(stop.second)});
     update_threshold_curve(database_);
