@@ -36,6 +36,24 @@ TEST(Examples, QuickstartHasFourCasesThatAreLaminar) {
   EXPECT_EQ(said.find("warning: ", warning + 1), said.npos) << said;
 }
 
+// Two studies of the threshold itself, whose beds are deep enough for it: nothing is said but of the lift's law, as above.
+TEST(Examples, ThresholdsOfLaminarBedsAreInRange) {
+  for (const auto& [name, picked] : {std::pair{"laminar-threshold",
+                                               "sg1.5 0.000467136 m 1500 kg/m3 1e-05 m2/s sg3 "
+                                               "0.000294277 m 3000 kg/m3 1e-05 m2/s"},
+                                     {"slope-threshold", "slope8deg 0.000370766 m 2000 kg/m3 1e-05 m2/s"}}) {
+    const auto plan = plan_of(name);
+    EXPECT_EQ(plan.code, 0) << plan.err;
+    const auto said = unwrapped(plan.out);
+    EXPECT_NE(said.find("16 cases (16 new"), said.npos) << said;
+    EXPECT_NE(said.find(picked), said.npos) << said;
+    EXPECT_NE(said.find("= 0.2: laminar"), said.npos) << said;
+    const auto warning = said.find("warning: ");
+    EXPECT_NE(said.find("the law of Saffman and Mei for shear_lift", warning), said.npos) << said;
+    EXPECT_EQ(said.find("warning: ", warning + 1), said.npos) << said;
+  }
+}
+
 // tau_b = 0.2 x 2000 x 9.81 x 0.001 = 3.924 Pa; over 10 mm of water that is a lid at 39 m/s.
 TEST(Examples, SeedErosionIsCalledUnphysicalInWater) {
   for (const auto* name : {"seed-erosion", "seed-erosion-fine"}) {
