@@ -146,7 +146,7 @@ TEST_P(KillAndResume, GivesTheSameBitsAsAnUndisturbedRun) {
 INSTANTIATE_TEST_SUITE_P(Studies, KillAndResume,
                          ::testing::Values(KilledStudy{"ramps", often_saved, 8}, KilledStudy{"searches", searched(), 6},
                                            KilledStudy{"sheared_beds", sheared(), 6}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& study) { return study.param.name; });
 
 }   // namespace
 }   // namespace bedload
