@@ -38,6 +38,8 @@ int status_command(const StudyOptions&, bool watch);
 int curve_command(const StudyOptions&);
 int query_command(const StudyOptions&, const std::string& sql);
 int report_command(const StudyOptions&);
+/// `named`: CASE or CASE@STEP.
+int view_command(const StudyOptions&, const std::string& named);
 
 struct ValidateOptions {
   std::vector<std::string> groups;   // none = all but extremes

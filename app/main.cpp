@@ -58,7 +58,7 @@ struct CommandLine {
   RunOptionsOfCommand run_;
   ValidateOptions validate_;
   StudyOptions& study_ = run_.study;
-  std::string name_, directory_, sql_, checkpoint_;
+  std::string name_, directory_, sql_, checkpoint_, viewed_;
   std::optional<std::string> until_;
   std::optional<double> budget_;
   bool watch_ = false, digest_ = false, verify_ = false, csv_ = false, json_ = false, svg_ = false, quiet_ = false,
@@ -157,6 +157,11 @@ void CommandLine::result_commands() {
   auto* report = add("report", "write report.html, one self-contained page", "bedload report shields.toml",
                      [this] { return report_command(study_); });
   study_argument(report);
+
+  auto* view = add("view", "files that ParaView opens; prints the command",
+                   "bedload view shields.toml d0.5mm-rho2000-s1", [this] { return view_command(study_, viewed_); });
+  study_argument(view);
+  view->add_option("CASE", viewed_, "label or id prefix of one case; CASE@STEP: that checkpoint alone")->required();
 }
 
 void CommandLine::validate_commands() {
@@ -197,7 +202,7 @@ void CommandLine::case_commands() {
 }
 
 void CommandLine::later_commands() {
-  for (const char* name : {"view", "prune", "doctor"}) {
+  for (const char* name : {"prune", "doctor"}) {
     auto* command = app.add_subcommand(name, "not in this version")->group("");
     command->allow_extras();
     command->callback([name] { not_in_this_version(name); });

@@ -126,6 +126,12 @@ std::optional<State> newest_whole(const fs::path& directory, const CheckpointSer
   return first_whole<State>(directory, read_checkpoint, say);
 }
 
+std::vector<std::uint64_t> checkpoint_steps(const fs::path& directory) {
+  std::vector<std::uint64_t> steps;
+  for (const CheckpointFile& file : checkpoints_in(directory)) steps.insert(steps.begin(), file.step);
+  return steps;
+}
+
 std::optional<CheckpointPosition> newest_position(const fs::path& directory) {
   const auto position_in = [](const fs::path& file) {
     const CheckpointHeader header = header_from_image(read_file(file), file.string());

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "solver/state.hpp"
 
@@ -38,6 +39,8 @@ class CheckpointSeries {
 
 /// The newest whole checkpoint. `say` is told of each broken one that was passed over.
 std::optional<State> newest_whole(const std::filesystem::path& directory, const CheckpointSeries::Say& say);
+/// The steps of all files named ck-<step>.h5, whole or not, rising.
+std::vector<std::uint64_t> checkpoint_steps(const std::filesystem::path& directory);
 /// Its step and finished flag, without loading it all.
 std::optional<CheckpointPosition> newest_position(const std::filesystem::path& directory);
 

@@ -68,6 +68,11 @@ struct NumberType<std::uint64_t> {
   static hid_t in_memory() { return H5T_NATIVE_UINT64; }
 };
 template <>
+struct NumberType<std::int64_t> {
+  static hid_t in_file() { return H5T_STD_I64LE; }
+  static hid_t in_memory() { return H5T_NATIVE_INT64; }
+};
+template <>
 struct NumberType<std::uint32_t> {
   static hid_t in_file() { return H5T_STD_U32LE; }
   static hid_t in_memory() { return H5T_NATIVE_UINT32; }
@@ -142,12 +147,12 @@ void make_groups(hid_t file, const std::string& path) {
   }
 }
 
-void write_unit(hid_t dataset, const std::string& unit) {
+void write_text(hid_t object, const char* name, const std::string& text) {
   const Handle type(made(H5Tcopy(H5T_C_S1), "a string type"), H5Tclose);
-  made(H5Tset_size(type, unit.size()), "a string type");
+  made(H5Tset_size(type, text.size()), "a string type");
   const Handle space = space_of({});
-  const Handle attribute(made(H5Acreate2(dataset, "unit", type, space, H5P_DEFAULT, H5P_DEFAULT), "a unit"), H5Aclose);
-  made(H5Awrite(attribute, type, unit.data()), "a unit");
+  const Handle attribute(made(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), name), H5Aclose);
+  made(H5Awrite(attribute, type, text.data()), name);
 }
 
 // --- reading: a failure is the file's fault
@@ -209,7 +214,7 @@ void Hdf5Writer::write(const std::string& path, std::span<const Number> numbers,
                        H5Dclose);
   if (!numbers.empty())
     made(H5Dwrite(dataset, NumberType<Number>::in_memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), path);
-  write_unit(dataset, unit);
+  write_text(dataset, "unit", unit);
 }
 
 void Hdf5Writer::write_attribute(const std::string& name, std::uint64_t value) {
@@ -217,6 +222,24 @@ void Hdf5Writer::write_attribute(const std::string& name, std::uint64_t value) {
   const Handle attribute(made(H5Acreate2(file_, name.c_str(), H5T_STD_U64LE, space, H5P_DEFAULT, H5P_DEFAULT), name),
                          H5Aclose);
   made(H5Awrite(attribute, H5T_NATIVE_UINT64, &value), name);
+}
+
+template <class Number>
+void Hdf5Writer::write_attribute(const std::string& group, const std::string& name, std::span<const Number> numbers) {
+  make_groups(file_, group + "/");
+  const Handle object(made(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), group), H5Gclose);
+  const Handle space = space_of(Shape{numbers.size()});
+  const hid_t type = NumberType<Number>::in_file();
+  const Handle attribute(made(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), name), H5Aclose);
+  made(H5Awrite(attribute, NumberType<Number>::in_memory(), numbers.data()), name);
+}
+template void Hdf5Writer::write_attribute(const std::string&, const std::string&, std::span<const double>);
+template void Hdf5Writer::write_attribute(const std::string&, const std::string&, std::span<const std::int64_t>);
+
+void Hdf5Writer::write_attribute(const std::string& group, const std::string& name, const std::string& text) {
+  make_groups(file_, group + "/");
+  const Handle object(made(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), group), H5Gclose);
+  write_text(object, name.c_str(), text);
 }
 
 std::vector<std::byte> Hdf5Writer::image() {
@@ -280,6 +303,7 @@ void Hdf5Reader::read(const std::string& path, std::span<Number> numbers) const 
   template void Hdf5Reader::read(const std::string&, std::span<Number>) const;
 BEDLOAD_NUMBER(double)
 BEDLOAD_NUMBER(std::uint64_t)
+BEDLOAD_NUMBER(std::int64_t)
 BEDLOAD_NUMBER(std::uint32_t)
 BEDLOAD_NUMBER(std::uint8_t)
 #undef BEDLOAD_NUMBER

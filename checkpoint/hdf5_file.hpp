@@ -13,7 +13,7 @@ namespace bedload {
 using Shape = std::vector<std::uint64_t>;
 
 /// Builds a file in memory. The same calls give the same bytes: no object times, and HDF5 never touches the disk, where a
-/// full one makes it crash. Numbers are double, uint64, uint32 or uint8. Not thread-safe (neither is Debian's HDF5).
+/// full one makes it crash. Numbers are double, uint64, int64, uint32 or uint8. Not thread-safe (neither is Debian's HDF5).
 class Hdf5Writer {
  public:
   Hdf5Writer();
@@ -28,6 +28,10 @@ class Hdf5Writer {
              const std::string& unit);
   /// A number attached to the file as a whole.
   void write_attribute(const std::string& name, std::uint64_t value);
+  /// Numbers (double, int64) and a text of fixed length attached to a group, which is made if it is not there.
+  template <class Number>
+  void write_attribute(const std::string& group, const std::string& name, std::span<const Number> numbers);
+  void write_attribute(const std::string& group, const std::string& name, const std::string& text);
   /// The bytes of the file so far.
   std::vector<std::byte> image();
 

@@ -170,7 +170,7 @@ TEST_F(BadInput, UnknownCommandAndOptionAndLaterCommand) {
 TEST_F(BadInput, CommandOfALaterVersion) {
   std::ofstream(here() / "tiny.toml") << tiny_study;
   for (const std::vector<std::string>& words :
-       std::vector<std::vector<std::string>>{{"view"}, {"prune"}, {"doctor"}, {"trade"}, {"plan", "--probe"}}) {
+       std::vector<std::vector<std::string>>{{"prune"}, {"doctor"}, {"trade"}, {"plan", "--probe"}}) {
     auto arguments = words;
     arguments.push_back("tiny.toml");
     const auto later = bedload(here(), arguments);
