@@ -164,9 +164,15 @@ void append_bed(const Scene& scene, const State& state, Rows& rows) {
   rows.hold.push_back(double(state.search.hold));
   rows.shields_nominal.push_back(state.search.shields);
   rows.bed_height.push_back(surface.height);
+  rows.moved_grains.push_back(double(count_moved(state.grains)));
   rows.roughness.push_back(surface.roughness);
   rows.coordination.push_back(coordination(state.contacts, state.grains.size()));
-  if constexpr (requires { rows.porosity; }) rows.porosity.push_back(surface.porosity);
+  if constexpr (requires { rows.porosity; }) {
+    rows.porosity.push_back(surface.porosity);
+    rows.bed_top.push_back(surface.top);
+    rows.slope.push_back(surface.slope);
+    rows.bearing_coordination.push_back(bearing_coordination(state.contacts, state.grains.size()));
+  }
 }
 
 void BedRecorder::record_sample(State& state, const StepHealth& health) {

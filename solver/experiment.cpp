@@ -260,6 +260,7 @@ void Experiment::Parts::begin_hold(State& state) {
   search.health = {};
   search.blocks = search.block_events = search.block_events_squared = 0;
   std::fill(state.grains.travel.begin(), state.grains.travel.end(), 0.0);
+  std::fill(state.grains.moved.begin(), state.grains.moved.end(), std::uint8_t(0));
 }
 
 /// Fluid, grains and contacts; the clock, the search and the record go on.

@@ -98,6 +98,7 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("grains/mean_contact_force", s.grains.mean_contact_force, "N");
   visit("grains/mean_contact_torque", s.grains.mean_contact_torque, "N m");
   visit("grains/travel", s.grains.travel, "m");
+  visit("grains/moved", s.grains.moved, "1");
 
   visit("contacts/lower", s.contacts.lower, "1");
   visit("contacts/higher", s.contacts.higher, "1");
@@ -154,6 +155,7 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("record/samples/coordination", p.coordination, "1");
   visit("record/samples/flux", p.flux, "1");
   visit("record/samples/moving_fraction", p.moving_fraction, "1");
+  visit("record/samples/moved_grains", p.moved_grains, "1");
   visit("record/samples/mean_grain_speed", p.mean_grain_speed, "m/s");
   visit("record/samples/deepest_overlap", p.deepest_overlap, "1");
   visit("record/samples/momentum_residual", p.momentum_residual, "1");
@@ -172,10 +174,14 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("record/holds/flux", h.flux, "1");
   visit("record/holds/flux_standard_error", h.flux_standard_error, "1");
   visit("record/holds/moving_fraction", h.moving_fraction, "1");
+  visit("record/holds/moved_grains", h.moved_grains, "1");
   visit("record/holds/bed_height", h.bed_height, "m");
+  visit("record/holds/bed_top", h.bed_top, "m");
+  visit("record/holds/slope", h.slope, "1");
   visit("record/holds/roughness", h.roughness, "m");
   visit("record/holds/porosity", h.porosity, "1");
   visit("record/holds/coordination", h.coordination, "1");
+  visit("record/holds/bearing_coordination", h.bearing_coordination, "1");
   visit("record/holds/momentum_residual", h.momentum_residual, "1");
 
   visit("record/health/hold", s.record.health.hold, "1");
@@ -189,6 +195,7 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("record/profiles/porosity", b.porosity, "1");
   visit("record/profiles/fluid_velocity", b.fluid_velocity, "m/s");
   visit("record/profiles/grain_velocity", b.grain_velocity, "m/s");
+  visit("record/profiles/granular_temperature", b.granular_temperature, "m2/s2");
 
   auto& t = s.record.tracks;
   visit("record/tracks/time", t.time, "s");
@@ -207,9 +214,9 @@ void State::each_field(Self& s, Visit&& visit) {
   static_assert(sizeof(Clock) == 5 * 8 && sizeof(Window) == 7 * 8 && sizeof(HoldHealth) == 20 * 8 &&
                 sizeof(Search) == 17 * 8 + 2 * sizeof(Window) + sizeof(HoldHealth));
   static_assert(sizeof(FluidState) == 4 * sizeof(Field<Centre>) + 8);
-  static_assert(sizeof(Grains) == 9 * sizeof(std::vector<Vec3>) &&
+  static_assert(sizeof(Grains) == 10 * sizeof(std::vector<Vec3>) &&
                 sizeof(ContactHistory) == 5 * sizeof(std::vector<Vec3>));
-  static_assert(sizeof(BedRecord) == 3 * 8 + (12 + 18 + 21 + 5 + 11) * sizeof(std::vector<double>));
+  static_assert(sizeof(BedRecord) == 3 * 8 + (13 + 22 + 21 + 6 + 11) * sizeof(std::vector<double>));
 }
 
 /// SHA-256 over each_field: name, unit, shape, little-endian bytes of the interior. Hexadecimal.

@@ -53,10 +53,14 @@ CREATE TABLE IF NOT EXISTS ramp_points (           -- one row per hold, means ov
   transport                 REAL,                  -- q* = q/sqrt((s-1) g d^3)
   transport_error           REAL,
   moving_fraction           REAL NOT NULL,         -- grains faster than 0.01 sqrt((s-1) g d), per surface grain
-  bed_height_m              REAL NOT NULL,
+  moved_grains              INTEGER NOT NULL,      -- that went d/2 downstream since the hold began
+  bed_height_m              REAL NOT NULL,         -- z_b: half of the bulk's solid fraction
+  bed_top_m                 REAL NOT NULL,         -- mean elevation of the highest grain surfaces
+  slope                     REAL NOT NULL,         -- dz/dx of that elevation, least squares
   roughness_m               REAL NOT NULL,
   porosity                  REAL NOT NULL,
   coordination              REAL NOT NULL,
+  bearing_coordination      REAL NOT NULL,         -- without rattlers
   momentum_residual         REAL,                  -- in units of a Shields number
   purpose                   TEXT NOT NULL,         -- ramp, or of a bisection: staircase | onset | stir | stop
   verdict                   TEXT NOT NULL,         -- none (ramp), arrested | undecided | mobile
@@ -91,7 +95,7 @@ CREATE TABLE IF NOT EXISTS step_health (           -- one row per hold: the wors
 
 CREATE TABLE IF NOT EXISTS thresholds (            -- per case and criterion
   case_id                   TEXT NOT NULL,
-  criterion                 TEXT NOT NULL,         -- flux | moving_fraction
+  criterion                 TEXT NOT NULL,         -- flux | moving_fraction | moved_grains | moved_fraction | reference_transport
   value                     REAL NOT NULL,
   decides                   INTEGER NOT NULL,      -- 1 = the study's own criterion, of which the curve is made
   status                    TEXT NOT NULL,         -- bracketed | censored_below | censored_above | noisy
@@ -109,6 +113,27 @@ CREATE TABLE IF NOT EXISTS thresholds (            -- per case and criterion
   PRIMARY KEY (case_id, criterion, value)
 ) STRICT;
 
+CREATE TABLE IF NOT EXISTS flux_laws (             -- q* = k (theta - theta_0)^n over the holds that move; no row where none fits
+  case_id                   TEXT PRIMARY KEY,
+  exponent                  REAL NOT NULL,         -- n: 3 laminar, 1.5 turbulent
+  threshold                 REAL NOT NULL,         -- theta_0
+  threshold_error           REAL NOT NULL,         -- standard error
+  coefficient               REAL NOT NULL,         -- k
+  coefficient_error         REAL NOT NULL,
+  holds                     INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE IF NOT EXISTS motion_decay (          -- last + (first - last) exp(-t/T) of the moving grains in a hold
+  case_id                   TEXT NOT NULL,
+  hold                      INTEGER NOT NULL,
+  decay_time_s              REAL NOT NULL,         -- T
+  decay_time_error_s        REAL NOT NULL,         -- standard error
+  first                     REAL NOT NULL,         -- grains that move at the beginning
+  last                      REAL NOT NULL,         -- and in the end
+  samples                   INTEGER NOT NULL,
+  PRIMARY KEY (case_id, hold)
+) STRICT;
+
 CREATE TABLE IF NOT EXISTS bed_statistics (        -- profiles; hold -1 = the settled bed
   case_id                   TEXT NOT NULL,
   hold                      INTEGER NOT NULL,
@@ -116,6 +141,7 @@ CREATE TABLE IF NOT EXISTS bed_statistics (        -- profiles; hold -1 = the se
   porosity                  REAL NOT NULL,
   fluid_velocity_m_per_s    REAL NOT NULL,
   grain_velocity_m_per_s    REAL NOT NULL,
+  granular_temperature_m2_per_s2 REAL NOT NULL,
   PRIMARY KEY (case_id, hold, z_m)
 ) STRICT;
 
@@ -127,6 +153,7 @@ CREATE TABLE IF NOT EXISTS samples (               -- the bed in time, means sin
   shields                   REAL NOT NULL,
   event_flux                REAL NOT NULL,
   moving_fraction           REAL NOT NULL,
+  moved_grains              INTEGER NOT NULL,      -- since the hold began
   bed_height_m              REAL NOT NULL,
   roughness_m               REAL NOT NULL,
   coordination              REAL NOT NULL,

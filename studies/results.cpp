@@ -15,6 +15,7 @@
 #include "studies/database_values.hpp"
 #include "studies/result_tables.hpp"
 #include "studies/threshold_curve.hpp"
+#include "studies/transport_fits.hpp"
 
 namespace bedload {
 
@@ -106,10 +107,14 @@ void store_ramp(Database& database, const CaseIdentity& id, const Scene& scene, 
             real_or_null(scales.transport(h.flux[k], per_area)),
             real_or_null(scales.transport(h.flux_standard_error[k], per_area)),
             h.moving_fraction[k],
+            whole(h.moved_grains[k]),
             h.bed_height[k],
+            h.bed_top[k],
+            h.slope[k],
             h.roughness[k],
             h.porosity[k],
             h.coordination[k],
+            h.bearing_coordination[k],
             known(h.momentum_residual[k]),
             std::string(name_of(static_cast<HoldPurpose>(h.purpose[k]))),
             std::string(name_of(static_cast<HoldVerdict>(h.verdict[k])))});
@@ -150,6 +155,74 @@ void store_searched(Database& database, const CaseIdentity& id, const Scene& sce
                     std::string("bisect"), real_or_null(found.stop_lower), real_or_null(found.stop_upper)});
 }
 
+/// Thresholds beside the study's own: first grain, 1 % and 10 % of the surface moved, and the reference transport
+/// W* = q*/theta^1.5 = 0.002 (Parker). Over all holds of a ramp; of a search those of purpose onset, which begin alike.
+void store_measures_of_motion(Database& database, const CaseIdentity& id, const Scene& scene, const BedRecord& record) {
+  const BedRecord::Holds& h = record.holds;
+  const Scales scales(scene);
+  const double surface = surface_grains(scene), per_area = surface / (scene.bed.length.x * scene.bed.length.y);
+  std::vector<double> shields, grains, fraction, reference;
+  for (std::size_t k = 0; k < h.hold.size(); ++k) {
+    const auto purpose = static_cast<HoldPurpose>(h.purpose[k]);
+    if (purpose != HoldPurpose::ramp && purpose != HoldPurpose::onset) continue;
+    if (!(h.shields_measured[k] > 0)) continue;
+    shields.push_back(h.shields_measured[k]);
+    grains.push_back(h.moved_grains[k]);
+    fraction.push_back(h.moved_grains[k] / surface);
+    const double w = scales.transport(h.flux[k], per_area) / std::pow(h.shields_measured[k], 1.5);
+    reference.push_back(std::isfinite(w) ? std::max(w, 0.0) : 0.0);
+  }
+  const std::string method = scene.onset.method == Onset::Method::bisect ? "bisect" : "ramp";
+  const auto store = [&](const char* criterion, const std::vector<double>& motion, double value) {
+    const IncipientMotion found = lowest_reached(shields, motion, value);
+    insert_threshold(
+        database, scene, record,
+        {id.id, std::string(criterion), value, flag(false), std::string(name_of(found.status)),
+         real_or_null(found.shields), real_or_null(found.lower), real_or_null(found.upper), method, Value(), Value()});
+  };
+  store("moved_grains", grains, 1);
+  store("moved_fraction", fraction, 0.01);
+  store("moved_fraction", fraction, 0.1);
+  store("reference_transport", reference, 0.002);
+}
+
+/// Over the holds that move by the criterion of flux; n is the usual 3 for laminar and 1.5 for turbulent flow.
+void store_flux_law(Database& database, const CaseIdentity& id, const Scene& scene, const BedRecord::Holds& h) {
+  const Scales scales(scene);
+  const double per_area = surface_grains(scene) / (scene.bed.length.x * scene.bed.length.y);
+  const double moves = scene.onset.criterion == Onset::Criterion::flux ? scene.onset.value : 1e-2;
+  std::vector<double> shields, transport;
+  for (std::size_t k = 0; k < h.hold.size(); ++k) {
+    if (static_cast<HoldPurpose>(h.purpose[k]) == HoldPurpose::staircase || h.flux[k] < moves) continue;
+    shields.push_back(h.shields_measured[k]);
+    transport.push_back(scales.transport(h.flux[k], per_area));
+  }
+  const auto law = fit_flux_law(shields, transport, scene.terms.turbulence ? 1.5 : 3);
+  if (!law || !std::isfinite(law->threshold)) return;
+  insert(database, "flux_laws",
+         {id.id, law->exponent, law->threshold, law->threshold_error, law->coefficient, law->coefficient_error,
+          whole(std::uint64_t(shields.size()))});
+}
+
+/// How the number of moving grains falls within each hold.
+void store_decays(Database& database, const CaseIdentity& id, const Scene& scene, const BedRecord& record) {
+  const BedRecord::Samples& s = record.samples;
+  const double surface = surface_grains(scene);
+  for (std::size_t k = 0; k < record.holds.hold.size(); ++k) {
+    std::vector<double> time, moving;
+    for (std::size_t n = 0; n < s.time.size(); ++n) {
+      if (s.hold[n] != record.holds.hold[k]) continue;
+      time.push_back(s.time[n] - record.holds.start[k]);
+      moving.push_back(s.moving_fraction[n] * surface);
+    }
+    const auto decay = fit_decay(time, moving);
+    if (!decay) continue;
+    insert(database, "motion_decay",
+           {id.id, whole(record.holds.hold[k]), decay->time, decay->time_error, decay->first, decay->last,
+            whole(std::uint64_t(time.size()))});
+  }
+}
+
 /// The study's own criterion, and flux at 1e-3 (where rearrangements begin to count) and 1e-2 for every study alike.
 void store_thresholds(Database& database, const CaseIdentity& id, const Scene& scene, const BedRecord& record) {
   const Onset& onset = scene.onset;
@@ -171,15 +244,16 @@ void store_thresholds(Database& database, const CaseIdentity& id, const Scene& s
 void store_profiles(Database& database, const CaseIdentity& id, const BedRecord::Profiles& p) {
   for (std::size_t n = 0; n < p.z.size(); ++n)
     insert(database, "bed_statistics",
-           {id.id, whole(p.hold[n]), p.z[n], p.porosity[n], p.fluid_velocity[n], p.grain_velocity[n]});
+           {id.id, whole(p.hold[n]), p.z[n], p.porosity[n], p.fluid_velocity[n], p.grain_velocity[n],
+            p.granular_temperature[n]});
 }
 
 void store_samples(Database& database, const CaseIdentity& id, const BedRecord::Samples& s) {
   for (std::size_t n = 0; n < s.time.size(); ++n)
     insert(database, "samples",
            {id.id, s.time[n], whole(s.hold[n]), s.shields_nominal[n], s.shields_measured[n], s.flux[n],
-            s.moving_fraction[n], s.bed_height[n], s.roughness[n], s.coordination[n], s.mean_grain_speed[n],
-            s.deepest_overlap[n], known(s.momentum_residual[n])});
+            s.moving_fraction[n], whole(s.moved_grains[n]), s.bed_height[n], s.roughness[n], s.coordination[n],
+            s.mean_grain_speed[n], s.deepest_overlap[n], known(s.momentum_residual[n])});
 }
 
 void store_tracks(Database& database, const CaseIdentity& id, const BedRecord::Tracks& t) {
@@ -200,12 +274,18 @@ void create_result_tables(Database& database) {
 void store_results(Database& database, const CaseIdentity& id, const Scene& scene, const State& state,
                    const Provenance& made_by) {
   Database::Transaction transaction(database);
-  for (const char* table : {"scenes", "ramp_points", "thresholds", "bed_statistics", "samples", "tracks", "provenance"})
+  for (const char* table : {"scenes", "ramp_points", "thresholds", "flux_laws", "motion_decay", "bed_statistics",
+                            "samples", "tracks", "provenance"})
     database.execute(fmt::format("DELETE FROM {} WHERE case_id = ?", table), {id.id});
   store_scene(database, id, scene, state);
   store_ramp(database, id, scene, state.record.holds);
   store_health(database, id.id, state);
   store_thresholds(database, id, scene, state.record);
+  if (scene.onset.method != Onset::Method::none) {
+    store_measures_of_motion(database, id, scene, state.record);
+    store_flux_law(database, id, scene, state.record.holds);
+    store_decays(database, id, scene, state.record);
+  }
   store_profiles(database, id, state.record.profiles);
   store_samples(database, id, state.record.samples);
   store_tracks(database, id, state.record.tracks);

@@ -33,21 +33,33 @@ double velocity_at(double z, const std::vector<double>& plane, const StaggeredGr
 }
 
 struct LayerOfGrains {
-  double solid = 0, momentum = 0;   // volume [m3], volume x streamwise velocity
+  double solid = 0;     // volume [m3]
+  Vec3 momentum;        // volume x velocity
+  double squares = 0;   // volume x squared fluctuation; filled once the mean is known
 };
+
+/// use(layer, slice [m3]) for every layer that grain p reaches into.
+template <class Use>
+void each_slice(const Grains& grains, std::size_t p, double bin, std::size_t bins, Use&& use) {
+  const double radius = grains.diameter[p] / 2, z = grains.position[p].z;
+  const auto first = std::size_t(std::max(0.0, (z - radius) / bin));
+  for (std::size_t k = first; k < bins && double(k) * bin < z + radius; ++k)
+    use(k, slice_volume(radius, double(k) * bin - z, double(k + 1) * bin - z));
+}
 
 std::vector<LayerOfGrains> layers_of(const Grains& grains, double height, std::size_t bins) {
   std::vector<LayerOfGrains> layers(bins);
   const double bin = height / double(bins);
-  for (std::size_t p = 0; p < grains.size(); ++p) {
-    const double radius = grains.diameter[p] / 2, z = grains.position[p].z;
-    const auto first = std::size_t(std::max(0.0, (z - radius) / bin));
-    for (std::size_t k = first; k < bins && double(k) * bin < z + radius; ++k) {
-      const double slice = slice_volume(radius, double(k) * bin - z, double(k + 1) * bin - z);
+  for (std::size_t p = 0; p < grains.size(); ++p)
+    each_slice(grains, p, bin, bins, [&](std::size_t k, double slice) {
       layers[k].solid += slice;
-      layers[k].momentum += slice * grains.velocity[p].x;
-    }
-  }
+      layers[k].momentum += slice * grains.velocity[p];
+    });
+  for (std::size_t p = 0; p < grains.size(); ++p)
+    each_slice(grains, p, bin, bins, [&](std::size_t k, double slice) {
+      if (slice > 0)
+        layers[k].squares += slice * norm2(grains.velocity[p] - (1 / layers[k].solid) * layers[k].momentum);
+    });
   return layers;
 }
 
@@ -66,7 +78,8 @@ void record_profiles(const Grains& grains, const FluidState& fluid, const Stagge
     out.z.push_back(z);
     out.porosity.push_back(1 - layers[k].solid / (length.x * length.y * bin));
     out.fluid_velocity.push_back(velocity_at(z, plane, grid, lid_speed));
-    out.grain_velocity.push_back(layers[k].solid > 0 ? layers[k].momentum / layers[k].solid : 0);
+    out.grain_velocity.push_back(layers[k].solid > 0 ? layers[k].momentum.x / layers[k].solid : 0);
+    out.granular_temperature.push_back(layers[k].solid > 0 ? layers[k].squares / (3 * layers[k].solid) : 0);
   }
 }
 

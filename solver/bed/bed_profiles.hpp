@@ -8,7 +8,8 @@
 namespace bedload {
 
 /// Appends one row per layer of about d/4: its middle z, porosity, mean streamwise fluid velocity (linear between the
-/// planes of the grid) and mean streamwise grain velocity, weighted by the grains' exact slices; 0 where there is no grain.
+/// planes of the grid) mean streamwise grain velocity and granular
+/// temperature <|v - mean v|^2>/3, weighted by the grains' exact slices; 0 where there is no grain.
 void record_profiles(const Grains&, const FluidState&, const StaggeredGrid&, double diameter, double lid_speed,
                      double hold, BedRecord::Profiles&);
 

@@ -17,13 +17,13 @@ struct BedRecord {
   } settled;
   struct Samples {   // every record.every seconds
     std::vector<double> time, hold, shields_nominal, shields_measured, bed_height, roughness, coordination, flux,
-        moving_fraction, mean_grain_speed, deepest_overlap, momentum_residual;
+        moving_fraction, moved_grains, mean_grain_speed, deepest_overlap, momentum_residual;
     bool operator==(const Samples&) const = default;
   } samples;
   struct Holds {   // one row per finished hold; purpose and verdict are numbers of HoldPurpose and HoldVerdict
     std::vector<double> hold, purpose, level, verdict, start, end, shields_nominal, shields_measured, lid_speed,
-        gradient, flux, flux_standard_error, moving_fraction, bed_height, roughness, porosity, coordination,
-        momentum_residual;
+        gradient, flux, flux_standard_error, moving_fraction, moved_grains, bed_height, bed_top, slope, roughness,
+        porosity, coordination, bearing_coordination, momentum_residual;
     bool operator==(const Holds&) const = default;
   } holds;
   struct Health {   // one row per finished hold
@@ -33,7 +33,7 @@ struct BedRecord {
     bool operator==(const Health&) const = default;
   } health;
   struct Profiles {   // at the end of packing (hold -1) and of every hold, mean over x and y
-    std::vector<double> hold, z, porosity, fluid_velocity, grain_velocity;
+    std::vector<double> hold, z, porosity, fluid_velocity, grain_velocity, granular_temperature;
     bool operator==(const Profiles&) const = default;
   } profiles;
   struct Tracks {   // record.tracks, one row per sample and tracked grain

@@ -52,10 +52,11 @@ double highest_crossing(const std::vector<double>& phi, double half) {
   return 0;
 }
 
+long columns_along(double edge, double diameter) { return std::max(1L, std::lround(2 * edge / diameter)); }
+
 /// Elevation of the highest grain surface above the middle of every column of about (d/2)^2; the bottom where there is none.
 std::vector<double> elevations(const Grains& grains, Vec3 length, double diameter) {
-  const auto columns = [&](double edge) { return std::max(1L, std::lround(2 * edge / diameter)); };
-  const long nx = columns(length.x), ny = columns(length.y);
+  const long nx = columns_along(length.x, diameter), ny = columns_along(length.y, diameter);
   const double hx = length.x / static_cast<double>(nx), hy = length.y / static_cast<double>(ny);
   const auto wrapped = [](long i, long n) { return ((i % n) + n) % n; };
   std::vector<double> top(static_cast<std::size_t>(nx * ny));
@@ -74,9 +75,23 @@ std::vector<double> elevations(const Grains& grains, Vec3 length, double diamete
   return top;
 }
 
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Slope along x by least squares of `top`, columns of equal x in a row.
+double slope_of(const std::vector<double>& top, double length, double diameter) {
+  const auto nx = static_cast<std::size_t>(columns_along(length, diameter)), ny = top.size() / nx;
+  double moment = 0, squares = 0;
+  for (std::size_t n = 0; n < top.size(); ++n) {
+    const double x = ((static_cast<double>(n / ny) + 0.5) / static_cast<double>(nx) - 0.5) * length;
+    moment += x * top[n], squares += x * x;
+  }
+  return squares > 0 ? moment / squares : 0;
+}
+
 double standard_deviation(const std::vector<double>& values) {
-  const double count = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  const double count = static_cast<double>(values.size()), mean = mean_of(values);
   double squares = 0;
   for (const double v : values) squares += (v - mean) * (v - mean);
   return std::sqrt(squares / count);
@@ -90,8 +105,11 @@ BedSurface bed_surface(const Grains& grains, Vec3 length, double diameter) {
   const double bulk = bulk_fraction(phi);
   constexpr double loosest_bed = 0.1;
   if (bulk < loosest_bed) return {};
+  const std::vector<double> top = elevations(grains, length, diameter);
   return {.height = highest_crossing(phi, bulk / 2) * length.z / static_cast<double>(bins),
-          .roughness = standard_deviation(elevations(grains, length, diameter)),
+          .top = mean_of(top),
+          .slope = slope_of(top, length.x, diameter),
+          .roughness = standard_deviation(top),
           .porosity = 1 - bulk};
 }
 
@@ -100,6 +118,29 @@ double coordination(const ContactHistory& contacts, std::size_t grains) {
   const auto touching = std::count_if(contacts.higher.begin(), contacts.higher.end(),
                                       [](std::uint32_t partner) { return partner < first_wall; });
   return grains ? 2.0 * static_cast<double>(touching) / static_cast<double>(grains) : 0;
+}
+
+double bearing_coordination(const ContactHistory& contacts, std::size_t grains) {
+  constexpr std::uint32_t fewest = 2;   // with friction; one contact holds nothing
+  const auto first_wall = static_cast<std::uint32_t>(Wall::x_low);
+  std::vector<std::uint8_t> bears(grains, 1);
+  for (bool found = true; found;) {   // without the rattlers, others may be left with too little
+    std::vector<std::uint32_t> touches(grains, 0);
+    std::uint64_t pairs = 0;
+    for (std::size_t c = 0; c < contacts.lower.size(); ++c) {
+      const std::uint32_t a = contacts.lower[c], b = contacts.higher[c];
+      const bool wall = b >= first_wall;
+      if (!bears[a] || (!wall && !bears[b])) continue;
+      ++touches[a];
+      if (!wall) ++touches[b], ++pairs;
+    }
+    found = false;
+    for (std::size_t p = 0; p < grains; ++p)
+      if (bears[p] && touches[p] < fewest) bears[p] = 0, found = true;
+    const auto left = std::count(bears.begin(), bears.end(), 1);
+    if (!found) return left ? 2.0 * static_cast<double>(pairs) / static_cast<double>(left) : 0;
+  }
+  return 0;
 }
 
 }   // namespace bedload

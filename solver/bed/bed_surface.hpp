@@ -17,6 +17,8 @@ std::vector<double> solid_fraction(const Grains&, Vec3 length, std::size_t bins)
 
 struct BedSurface {
   double height = 0;      // z_b [m]: highest level at which phi is half of the bulk's; 0 without a bed
+  double top = 0;         // mean elevation of the highest grain surface over columns of (d/2)^2 [m]
+  double slope = 0;       // dz/dx of that elevation by least squares, rising downstream [-]
   double roughness = 0;   // standard deviation of the surface's elevation over columns of (d/2)^2 [m]
   double porosity = 1;    // of the bulk: the layers that hold the middle half of the solid volume [-]
 };
@@ -26,5 +28,9 @@ BedSurface bed_surface(const Grains&, Vec3 length, double diameter);
 
 /// Mean number of grains that a grain touches; walls are not counted.
 double coordination(const ContactHistory&, std::size_t grains);
+
+/// The same among the grains that bear something: rattlers, which touch fewer than two grains or walls, are left out with
+/// their contacts, and then those that have become so; 0 where none is left.
+double bearing_coordination(const ContactHistory&, std::size_t grains);
 
 }   // namespace bedload

@@ -76,6 +76,22 @@ IncipientMotion incipient_motion(const BedRecord& record, Onset::Criterion crite
   return {k == *first ? OnsetStatus::bracketed : OnsetStatus::noisy, onset, lower, shields[k]};
 }
 
+IncipientMotion lowest_reached(std::span<const double> shields, std::span<const double> motion, double value) {
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  if (shields.empty()) return {OnsetStatus::none, unknown, unknown, unknown};
+  std::size_t upper = none, lower = none;
+  for (std::size_t k = 0; k < shields.size(); ++k)
+    if (motion[k] >= value && (upper == none || shields[k] < shields[upper])) upper = k;
+  for (std::size_t k = 0; k < shields.size(); ++k)
+    if (motion[k] < value && (upper == none || shields[k] < shields[upper]) &&
+        (lower == none || shields[k] > shields[lower]))
+      lower = k;
+  if (upper == none) return {OnsetStatus::censored_above, unknown, shields[lower], unknown};
+  if (lower == none) return {OnsetStatus::censored_below, unknown, unknown, shields[upper]};
+  const double between = log_linear_crossing(shields[lower], motion[lower], shields[upper], motion[upper], value);
+  return {OnsetStatus::bracketed, between, shields[lower], shields[upper]};
+}
+
 namespace {
 
 /// Measured in the last hold of a purpose at a level [-].
@@ -128,9 +144,13 @@ std::uint64_t count_events(Grains& grains, std::span<const double> x_before, dou
     if (period > 0) way -= period * std::round(way / period);
     double& travel = grains.travel[p];
     travel += way;
-    for (; travel >= diameter / 2; travel -= diameter / 2) ++events;
+    for (; travel >= diameter / 2; travel -= diameter / 2) ++events, grains.moved[p] = 1;
   }
   return events;
+}
+
+std::uint64_t count_moved(const Grains& grains) noexcept {
+  return static_cast<std::uint64_t>(std::count(grains.moved.begin(), grains.moved.end(), 1));
 }
 
 std::uint64_t count_moving(const Grains& grains, double speed_scale) noexcept {

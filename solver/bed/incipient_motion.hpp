@@ -36,12 +36,19 @@ SearchedMotion searched_motion(const BedRecord&);
 /// Onset by ramp: the first hold k at or above `value` that k+1 confirms; pure function of the record.
 IncipientMotion incipient_motion(const BedRecord&, Onset::Criterion, double value);
 
+/// Where a measure of motion passes `value` among holds in any order: upper is the lowest Shields number at which it was
+/// reached, lower the highest below that at which it was not, `shields` log-linear between them. Censored, never noisy.
+IncipientMotion lowest_reached(std::span<const double> shields, std::span<const double> motion, double value);
+
 /// True when the ramp may end: onset confirmed and two more holds recorded, or every hold done.
 bool ramp_is_over(const BedRecord&, const Onset&, std::size_t ramp_levels);
 
 /// Adds the way that every grain has gone along x since `x_before` [m] to its travel (by the shorter way round in a box of
-/// `period` > 0), and takes off each d/2 that is complete. Returns how many were: the events of the flux criterion.
+/// `period` > 0), and takes off each d/2 that is complete; a grain with one has moved. Returns how many there were: the events of the flux criterion.
 std::uint64_t count_events(Grains&, std::span<const double> x_before, double period, double diameter) noexcept;
+
+/// Number of grains that have gone d/2 downstream since the hold began, each counted once, wherever it is now.
+std::uint64_t count_moved(const Grains&) noexcept;
 
 /// Number of grains that are faster than 0.01 sqrt(|s-1| g d) [m/s].
 std::uint64_t count_moving(const Grains&, double speed_scale) noexcept;

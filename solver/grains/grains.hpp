@@ -20,12 +20,13 @@ struct Grains {
   std::vector<std::uint8_t> fixed;         // 1 = never moves
   std::vector<Vec3> mean_contact_force;    // [N], mean over the last fluid step (read by the next drag solve)
   std::vector<Vec3> mean_contact_torque;   // [N m], the same
+  std::vector<std::uint8_t> moved;         // 1 = an event since the hold began (bed/incipient_motion)
   std::vector<double> travel;              // [m], downstream displacement since the last event (bed/incipient_motion)
 
   std::size_t size() const { return position.size(); }
   void resize(std::size_t n) {
     position.resize(n), velocity.resize(n), spin.resize(n), diameter.resize(n), density.resize(n);
-    fixed.resize(n), mean_contact_force.resize(n), mean_contact_torque.resize(n), travel.resize(n);
+    fixed.resize(n), mean_contact_force.resize(n), mean_contact_torque.resize(n), travel.resize(n), moved.resize(n);
   }
   bool operator==(const Grains&) const = default;
 };

@@ -49,6 +49,7 @@ void renumber_in_space(const BedScene& scene, Grains& grains, ContactHistory& co
   reorder(grains.diameter, old_id), reorder(grains.density, old_id), reorder(grains.fixed, old_id);
   reorder(grains.mean_contact_force, old_id), reorder(grains.mean_contact_torque, old_id);
   reorder(grains.travel, old_id);
+  reorder(grains.moved, old_id);
   renumber(contacts, new_id);
 }
 

@@ -65,8 +65,9 @@ class BudgetOfResults : public ::testing::Test {
         "'di_felice',1,1,1,0)",
         {one.id, one.label, one.set, one.set_label, static_cast<std::int64_t>(one.seed)});
     const double found = std::sqrt(lower * upper);
-    database.execute("INSERT INTO thresholds VALUES (?,'flux',0.01,1,'bracketed',?,?,?,'bisect',NULL,NULL)",
-                     {one.id, real_or_null(found), real_or_null(lower), real_or_null(upper)});
+    database.execute(
+        "INSERT INTO thresholds VALUES (?,'flux',0.01,1,'bracketed',?,?,?,'bisect',NULL,NULL,0.58,4.5,NULL,NULL,NULL)",
+        {one.id, real_or_null(found), real_or_null(lower), real_or_null(upper)});
     update_threshold_curve(database);
   }
   ThresholdPoint only_point() const {

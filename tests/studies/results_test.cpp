@@ -47,7 +47,8 @@ State finished_state() {
   for (int k = 0; k < 4; ++k) {
     auto& h = state.record.holds;
     for (auto* column : {&h.start, &h.end, &h.shields_nominal, &h.lid_speed, &h.gradient, &h.flux_standard_error,
-                         &h.moving_fraction, &h.bed_height, &h.roughness, &h.porosity, &h.coordination})
+                         &h.moving_fraction, &h.moved_grains, &h.bed_height, &h.bed_top, &h.slope,
+                         &h.bearing_coordination, &h.roughness, &h.porosity, &h.coordination})
       column->push_back(k);
     for (auto* column : {&h.purpose, &h.level, &h.verdict}) column->push_back(0);   // of a ramp
     h.hold.push_back(k);
@@ -56,12 +57,21 @@ State finished_state() {
     h.momentum_residual.push_back(k == 0 ? -1 : 1e-9);
   }
   state.record.settled = {.solid_fraction = 0.58, .coordination = 4.5, .shear_flux = 2e-3};
+  auto& s = state.record.samples;
+  for (int n = 1; n <= 10; ++n) {   // 3 + 0.2 n [s]: 60 moving grains of 244.46 die away within 0.5 s
+    for (auto* column : {&s.shields_nominal, &s.shields_measured, &s.flux, &s.moved_grains, &s.bed_height, &s.roughness,
+                         &s.coordination, &s.mean_grain_speed, &s.deepest_overlap, &s.momentum_residual})
+      column->push_back(n);
+    s.time.push_back(3 + 0.2 * n);
+    s.hold.push_back(3);
+    s.moving_fraction.push_back(60 * std::exp(-0.2 * n / 0.5) / surface_grains(small_scene()));
+  }
   state.clock.retries = 3;
   state.record.health.hold = {0};
   double measure = 100;
   BedRecord::Health::Measures::each(state.record.health.measures,
                                     [&](auto&&, auto& column, auto&&) { column = {measure++}; });
-  state.record.profiles = {{-1, -1}, {1e-4, 2e-4}, {0.4, 0.5}, {0, 0}, {0, 0}};
+  state.record.profiles = {{-1, -1}, {1e-4, 2e-4}, {0.4, 0.5}, {0, 0}, {0, 0}, {0, 0}};
   state.record.tracks = {{0.1}, {7}, {1}, {2}, {3}, {4}, {5}, {6}, {7}, {8}, {9}};
   return state;
 }
@@ -107,7 +117,7 @@ TEST_F(ResultsTest, TurnEventsIntoTheVolumeFluxOfGrains) {
 
 TEST_F(ResultsTest, HoldTheThresholdOfEveryCriterionAndMarkTheOneThatDecides) {
   store();
-  EXPECT_EQ(number("SELECT count(*) FROM thresholds"), 2);
+  EXPECT_EQ(number("SELECT count(*) FROM thresholds WHERE criterion = 'flux'"), 2);
   EXPECT_EQ(number("SELECT count(*) FROM thresholds WHERE decides AND value = 0.01 AND status = 'bracketed'"), 1);
   EXPECT_EQ(number("SELECT shields_upper FROM thresholds WHERE decides"), 0.1 * 3);
   EXPECT_EQ(threshold_curve(database_).size(), 1u);
@@ -125,6 +135,36 @@ TEST_F(ResultsTest, HoldTheBedOfEveryThresholdAndItsHistory) {
   EXPECT_EQ(number("SELECT count(*) FROM thresholds WHERE case_id = 'id2' AND shear_shields = 0.05 AND shear_s = 3 AND "
                    "shear_flux = 2e-3"),
             number("SELECT count(*) FROM thresholds WHERE case_id = 'id2'"));
+}
+
+TEST_F(ResultsTest, HoldTheShieldsNumbersAtWhichGrainsHadMoved) {
+  // Holds of 0, 1, 2 and 3 moved grains at theta 0.1 to 0.4, of N_s = 0.8 x 20 x 12/(pi/4) = 244.5.
+  store();
+  EXPECT_EQ(number("SELECT shields_lower FROM thresholds WHERE criterion = 'moved_grains'"), 0.1 * 1);
+  EXPECT_EQ(number("SELECT shields_upper FROM thresholds WHERE criterion = 'moved_grains'"), 0.1 * 2);
+  EXPECT_EQ(number("SELECT shields_upper FROM thresholds WHERE criterion = 'moved_fraction' AND value = 0.01"),
+            0.1 * 4);
+  EXPECT_EQ(number("SELECT count(*) FROM thresholds WHERE criterion = 'moved_fraction' AND value = 0.1 AND status = "
+                   "'censored_above' AND shields IS NULL AND shields_lower = 0.4"),
+            1);
+}
+
+TEST_F(ResultsTest, HoldTheShieldsNumberOfTheReferenceTransport) {
+  store();
+  const auto w = [&](int hold) {
+    return number("SELECT transport / (shields * sqrt(shields)) FROM ramp_points WHERE hold = " + std::to_string(hold));
+  };
+  ASSERT_LT(w(1), 0.002);
+  ASSERT_GT(w(2), 0.002);
+  const double from = std::log(std::max(w(1), 2e-5)), part = (std::log(0.002) - from) / (std::log(w(2)) - from);
+  EXPECT_NEAR(number("SELECT shields FROM thresholds WHERE criterion = 'reference_transport'"), 0.2 + 0.1 * part, 1e-9);
+}
+
+TEST_F(ResultsTest, HoldTheDecayOfTheMovingGrains) {
+  store();
+  EXPECT_NEAR(number("SELECT decay_time_s FROM motion_decay WHERE hold = 3"), 0.5, 1e-6);
+  EXPECT_NEAR(number("SELECT first FROM motion_decay"), 60, 1e-4);
+  EXPECT_EQ(number("SELECT moved_grains FROM samples WHERE time_s > 4.9"), 10);
 }
 
 TEST_F(ResultsTest, LeaveAMomentumResidualThatIsNotKnownEmpty) {
@@ -201,7 +241,7 @@ TEST_F(ResultsTest, AnswerTheQuestionsOfTheDocumentation) {
   store();
   store_models(database_, "id1", coarse_scene());
   const auto queries = documented_queries();
-  EXPECT_EQ(queries.size(), 6u);
+  EXPECT_EQ(queries.size(), 8u);
   for (const std::string& sql : queries) EXPECT_FALSE(database_.query(sql).rows.empty()) << sql;
 }
 

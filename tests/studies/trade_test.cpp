@@ -75,11 +75,12 @@ class MeasuredTrade : public ::testing::Test {
         "INSERT INTO scenes VALUES (?,?,?,?,?,5e-4,0.05,2000,1000,2,1e-5,9.81,3.5,1e5,300,244,1,1,1,1,1,2e-4,"
         "'di_felice',1,1,1,0)",
         {one.id, one.label, one.set, one.set_label, static_cast<std::int64_t>(one.seed)});
-    database.execute("INSERT INTO thresholds VALUES (?,'flux',0.01,1,'bracketed',?,?,?,'ramp',NULL,NULL)",
-                     {one.id, std::sqrt(lower * upper), lower, upper});
+    database.execute(
+        "INSERT INTO thresholds VALUES (?,'flux',0.01,1,'bracketed',?,?,?,'ramp',NULL,NULL,0.58,4.5,NULL,NULL,NULL)",
+        {one.id, std::sqrt(lower * upper), lower, upper});
     for (int hold = 0; hold < 2; ++hold)
       database.execute(
-          "INSERT INTO ramp_points VALUES (?,?,0,1,?,?,0,0,0,0,?,?,0,0,0.1,?,0.0005,0.4,5,0,'ramp','none')",
+          "INSERT INTO ramp_points VALUES (?,?,0,1,?,?,0,0,0,0,?,?,0,0,0.1,0,?,0.003,0,0.0005,0.4,5,5,0,'ramp','none')",
           {one.id, std::int64_t{hold}, 0.1 + 0.1 * hold, 0.1 + 0.1 * hold, flux * hold, 0.1 * flux, height * 5e-4});
     database.execute("INSERT INTO attempts VALUES (?,1,'h',1,'t',NULL,'finished','',NULL,NULL,?,'v','c')",
                      {one.id, core_seconds});

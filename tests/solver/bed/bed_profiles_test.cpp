@@ -35,7 +35,7 @@ TEST(BedProfiles, WeighGrainVelocitiesBySlices) {
   Grains grains;
   grains.resize(2);
   grains.position = {{1, 1, 0.5}, {3, 3, 0.5}};
-  grains.velocity = {{2, 0, 0}, {4, 0, 0}};
+  grains.velocity = {{2, 0, 5}, {4, 0, 1}};
   grains.diameter = {1, 1};
   BedRecord::Profiles out;
   record_profiles(grains, FluidState(grid), grid, 1, 0, 0, out);
@@ -43,6 +43,8 @@ TEST(BedProfiles, WeighGrainVelocitiesBySlices) {
   for (std::size_t k = 0; k < out.z.size(); ++k) {
     solid += (1 - out.porosity[k]) * 16 * 0.25;
     EXPECT_NEAR(out.grain_velocity[k], out.z[k] < 1 ? 3 : 0, 1e-12);
+    EXPECT_NEAR(out.granular_temperature[k], out.z[k] < 1 ? (1.0 + 4) / 3 : 0,
+                1e-12);   // fluctuations (-1, 2), (1, -2)
   }
   EXPECT_NEAR(solid, 2 * sphere_volume(1), 1e-12);
 }

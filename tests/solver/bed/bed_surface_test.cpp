@@ -86,6 +86,36 @@ TEST(BedRoughness, IsThatOfTwoKnownTerraces) {
   EXPECT_NEAR(bed_surface(terraces, box, d).roughness, std::hypot(level, d / 2), 1e-9 * d);
 }
 
+TEST(BedSlope, IsThatOfAStaircaseOfPlateaus) {
+  // Plateaus of equal shape at heights f(i) d: plain regression over them, their own shape being even about their middles.
+  const double d = 1e-3;
+  const Vec3 box{8 * d, 4 * d, 20 * d};
+  Grains stairs;
+  double mean = 0, moment = 0, squares = 0;
+  for (int i = 0; i < 8; ++i) {
+    const int layers = 3 + (i * i) / 7;
+    for (int j = 0; j < 4; ++j)
+      for (int k = 0; k < layers; ++k) add(stairs, {(i + 0.5) * d, (j + 0.5) * d, (k + 0.5) * d}, d);
+    moment += (i - 3.5) * layers, mean += layers / 8.0;
+    for (const double off : {-0.25, 0.25}) squares += (i - 3.5 + off) * (i - 3.5 + off) / 2;
+  }
+  const BedSurface surface = bed_surface(stairs, box, d);
+  EXPECT_NEAR(surface.slope, moment / squares, 1e-9);
+  // four columns over each grain, at (d/4, d/4) from its axis
+  EXPECT_NEAR(surface.top, (mean - 0.5 + std::sqrt(0.25 - 2.0 / 16)) * d, 1e-9 * d);
+}
+
+TEST(BearingCoordination, LeavesOutRattlersAndWhatHangsOnThem) {
+  ContactHistory
+      contacts;   // a triangle 0 1 2, a chain 2-3-4 that ends, a grain 5 between bottom and 0, 6 on the bottom alone
+  const auto bottom = static_cast<std::uint32_t>(Wall::z_low);
+  contacts.lower = {0, 0, 0, 1, 2, 3, 5, 6};
+  contacts.higher = {1, 2, 5, 2, 3, 4, bottom, bottom};
+  EXPECT_DOUBLE_EQ(bearing_coordination(contacts, 8), 2.0 * 4 / 4);   // 0, 1, 2, 5
+  EXPECT_EQ(bearing_coordination({}, 3), 0);
+  EXPECT_EQ(bearing_coordination({}, 0), 0);
+}
+
 TEST(Coordination, CountsBothPartnersAndNoWalls) {
   ContactHistory contacts;
   contacts.lower = {0, 0, 1, 2};

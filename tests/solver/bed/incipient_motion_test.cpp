@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <initializer_list>
 
@@ -130,6 +131,33 @@ TEST(MotionEvents, AreCountedOncePerHalfDiameterDownstream) {
   grains.position[0].x = 0.55;
   grains.position[1].x = -2;
   EXPECT_EQ(count_events(grains, before, 0, 1), 1u);   // the second is still upstream of where it was
+}
+
+TEST(MovedGrains, AreCountedOnceHoweverFarAndStayCounted) {
+  Grains grains = row_of({0, 0, 0, 0});
+  const double still[] = {0, 0, 0, 0};
+  for (std::size_t p = 0; p < 4; ++p) grains.position[p].x = std::array{0.6, -3.0, 1.6, 0.4}[p];
+  count_events(grains, still, 0, 1);
+  EXPECT_EQ(count_moved(grains), 2u);
+  const double before[] = {0.6, -3, 1.6, 0.4};
+  for (std::size_t p = 0; p < 4; ++p) grains.position[p].x = std::array{0.0, -2.0, 2.6, 0.55}[p];
+  count_events(grains, before, 0, 1);
+  EXPECT_EQ(count_moved(grains), 3u);   // the first, back where it was, and now the last
+}
+
+TEST(LowestReached, IsTheBracketOfHoldsInAnyOrder) {
+  const std::vector<double> theta{0.2, 0.1, 0.3, 0.14, 0.12}, motion{0.2, 0, 0.05, 0.1, 1e-3};
+  const IncipientMotion found = lowest_reached(theta, motion, 0.01);
+  EXPECT_EQ(found.status, OnsetStatus::bracketed);
+  EXPECT_EQ(found.lower, 0.12);
+  EXPECT_EQ(found.upper, 0.14);
+  EXPECT_NEAR(found.shields, 0.13, 1e-12);   // 1e-2 is half-way from 1e-3 to 1e-1 on a logarithm
+  EXPECT_EQ(lowest_reached(theta, motion, 0.5).status, OnsetStatus::censored_above);
+  EXPECT_EQ(lowest_reached(theta, motion, 0.5).lower, 0.3);
+  const std::vector<double> all(5, 1.0);
+  EXPECT_EQ(lowest_reached(theta, all, 0.5).status, OnsetStatus::censored_below);
+  EXPECT_EQ(lowest_reached(theta, all, 0.5).upper, 0.1);
+  EXPECT_EQ(lowest_reached({}, {}, 1).status, OnsetStatus::none);
 }
 
 TEST(MotionEvents, GoTheShortWayRoundAPeriodicBox) {
