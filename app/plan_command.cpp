@@ -92,7 +92,7 @@ std::vector<Cases> groups_that_agree(const Plan& plan) {
   std::vector<Cases> groups;
   for (const auto& c : plan.cases) {
     std::string decisions;
-    for (const auto& m : required_models(c.one.scene)) decisions += fmt::format("{} {} {};", m.term, m.on, m.wanted);
+    for (const auto& m : decisions_of(c.one.scene)) decisions += fmt::format("{} {} {};", m.term, m.on, m.wanted);
     const auto known = std::ranges::find(seen, decisions) - seen.begin();
     if (known == std::ssize(seen)) seen.push_back(decisions), groups.emplace_back();
     groups[static_cast<std::size_t>(known)].push_back(&c.one);

@@ -16,7 +16,8 @@ namespace bedload {
 namespace {
 
 constexpr double blocks_per_half = 5;   // for the standard error of the flux: each a few grain times long
-constexpr double not_known = -1;        // a momentum residual where walls or fixed grains take part unseen
+constexpr double not_known =
+    -1;   // a momentum residual where walls or fixed grains take part unseen, or an imposed flow
 
 double density_ratio(const Scene& scene) { return scene.bed.grains.density / scene.bed.fluid.density; }
 
@@ -151,8 +152,8 @@ double BedRecorder::measured_shields(const Search& search, const Window& window,
 /// What the momentum of fluid and grains did beyond the forces from outside, in units of a Shields number.
 double BedRecorder::momentum_residual(const Grains& grains, const Window& window, const StreamwiseMomentum& now) const {
   const auto& fixed = grains.fixed;
-  const bool seen =
-      scene_.grid.periodic(0) && scene_.grid.periodic(1) && std::find(fixed.begin(), fixed.end(), 1) == fixed.end();
+  const bool seen = scene_.fluid != FluidRung::profile && scene_.grid.periodic(0) && scene_.grid.periodic(1) &&
+                    std::find(fixed.begin(), fixed.end(), 1) == fixed.end();
   if (!seen || stress_scale_ <= 0) return not_known;
   return std::abs(now.total - window.momentum - window.outer_impulse) / (window.duration * area_ * stress_scale_);
 }

@@ -1,15 +1,20 @@
 // One coupled step, in the order of the physics.
+#include "solver/coupler_layers.hpp"
 #include "solver/coupler_parts.hpp"
 
 namespace bedload {
 
-Coupler::Parts::Parts(const Scene& given)
+Coupler::Rung::Rung(const Scene& given, Vec3 of_travel)
     : scene(given),
       grid(given.grid),
+      reach(of_travel),
       law(drag_law(given.drag)),
       fall_time(time_of_fall(given)),
+      dynamics(given.bed, {given.terms.wet_restitution, given.terms.lubrication}) {}
+
+Coupler::Parts::Parts(const Scene& given)
+    : Rung(given, given.grid.h),
       smoothing(given.grid, given.smoothing),
-      dynamics(given.bed, {given.terms.wet_restitution, given.terms.lubrication}),
       drag(grid),
       pressure(grid),
       before(grid),
@@ -34,38 +39,50 @@ Coupler::Parts::Parts(const Scene& given)
   if (wants_vorticity()) vorticity = vorticity_change = FaceFields(grid), woven_edges = Woven(woven, On::edges);
 }
 
-Coupler::Coupler(const Scene& scene) : parts_(std::make_unique<Parts>(scene)) {}
+std::unique_ptr<Coupler::Rung> Coupler::rung_of(const Scene& scene) {
+  switch (scene.fluid) {
+    case FluidRung::profile: return std::make_unique<ProfileRung>(scene);
+    case FluidRung::column: return std::make_unique<ColumnRung>(scene);
+    case FluidRung::box: break;
+  }
+  return std::make_unique<Parts>(scene);
+}
+
+Coupler::Coupler(const Scene& scene) : rung_(rung_of(scene)) {}
 Coupler::~Coupler() = default;
-const StepBooks& Coupler::books() const { return parts_->books; }
-std::span<const Vec3> Coupler::drag_on_grains() const { return parts_->drag_force; }
-std::span<const Vec3> Coupler::torque_on_grains() const { return parts_->torque; }
-const StepTimes& Coupler::times() const { return parts_->times; }
+const StepBooks& Coupler::books() const { return rung_->books; }
+std::span<const Vec3> Coupler::drag_on_grains() const { return rung_->drag_force; }
+std::span<const Vec3> Coupler::torque_on_grains() const { return rung_->torque; }
+const StepTimes& Coupler::times() const { return rung_->times; }
 void Coupler::forget() {
-  const StepTimes spent = parts_->times;
-  auto tables = std::move(parts_->flow.self_disturbance);   // of the grid alone
-  parts_ = std::make_unique<Parts>(parts_->scene);
-  parts_->times = spent;
-  parts_->flow.self_disturbance = std::move(tables);
+  auto anew = rung_of(rung_->scene);
+  anew->times = rung_->times;
+  anew->flow.self_disturbance = std::move(rung_->flow.self_disturbance);   // tables of the grid alone
+  rung_ = std::move(anew);
 }
 
 StepHealth Coupler::step(State& state, double longest) {
-  Parts& parts = *parts_;
-  Stopwatch watch(parts.times.total);
-  parts.health = {};
-  parts.books = {};
-  parts.place_on_grid(state.grains);
-  parts.accelerate_faces(state);
-  parts.sample_at_grains(state);
-  const double dt = parts.choose_step(state, longest);
-  parts.solve_drag(state, dt);
-  parts.move_grains(state, dt);
-  parts.deposit_at_new_positions(state, dt);
-  parts.transport_momentum(state, dt);
-  parts.carry_liquid(state, dt);
-  parts.project(state, dt);
+  Rung& rung = *rung_;
+  Stopwatch watch(rung.times.total);
+  rung.health = {};
+  rung.books = {};
+  rung.step(state, longest);
   ++state.clock.step;
-  state.clock.time += dt;
-  return parts.health;
+  state.clock.time += rung.health.dt;
+  return rung.health;
+}
+
+void Coupler::Parts::step(State& state, double longest) {
+  place_on_grid(state.grains);
+  accelerate_faces(state);
+  sample_at_grains(state);
+  const double dt = choose_step(state, longest);
+  solve_drag(state, dt);
+  move_grains(state, dt);
+  deposit_at_new_positions(state, dt);
+  transport_momentum(state, dt);
+  carry_liquid(state, dt);
+  project(state, dt);
 }
 
 }   // namespace bedload

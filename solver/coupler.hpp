@@ -74,8 +74,13 @@ class Coupler {
   void forget();
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  class Rung;     // one fidelity of the fluid with its grains: coupler_rung.hpp
+  struct Parts;   // of the box
+  class Layers;   // what column and imposed profile have in common: coupler_layers.hpp
+  class ColumnRung;
+  class ProfileRung;
+  static std::unique_ptr<Rung> rung_of(const Scene&);
+  std::unique_ptr<Rung> rung_;
 };
 
 }   // namespace bedload

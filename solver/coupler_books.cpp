@@ -20,7 +20,7 @@ void Coupler::Parts::book_drive_of_fluid(const State& state) {
 }
 
 /// Weight's, the push's and G's work on the grains over the way they went.
-void Coupler::Parts::book_drive_of_grains(const State& state, double dt) {
+void Coupler::Rung::book_drive_of_grains(const State& state, double dt) {
   const Grains& grains = state.grains;
   const Vec3 g = drive(state);
   for (std::size_t p = 0; p < grains.size(); ++p) {
@@ -34,7 +34,7 @@ void Coupler::Parts::book_drive_of_grains(const State& state, double dt) {
 }
 
 /// The forces that the solve has found, into the grains' push and the books.
-void Coupler::Parts::book_exchange(const State& state, double dt) {
+void Coupler::Rung::book_exchange(const State& state, double dt) {
   const Grains& grains = state.grains;
   const double rho = scene.bed.fluid.density;
   Vec3 on_grains;
@@ -61,6 +61,18 @@ void Coupler::Parts::book_exchange(const State& state, double dt) {
   books.on_grains = rho * on_grains;
 }
 
+/// The torque on a grain where the fluid turns at `turn` [1/s], into its spin and the books.
+void Coupler::Rung::book_torque(const Grains& grains, std::size_t p, Vec3 turn, double dt) {
+  torque[p] = scaled(scene.bed.fluid.density * spin_strength[p] / dt, turn - spin_target[p]);
+  Vec3 slip = turn - spin_start[p];
+  if (!grains.fixed[p]) {
+    const double d = grains.diameter[p];
+    spin_push[p] = torque[p] / sphere_inertia(grains.density[p] * sphere_volume(d), d);
+    slip -= dt * spin_push[p];
+  }
+  books.exchange_loss += dot(torque[p], slip);
+}
+
 /// The torques that the solve has found, into the grains' spin and what the couples leave on walls into the books.
 void Coupler::Parts::book_torques(const Grains& grains, double dt) {
   const double rho = scene.bed.fluid.density;
@@ -70,17 +82,7 @@ void Coupler::Parts::book_torques(const Grains& grains, double dt) {
     for (std::size_t n = 0; n < vorticity.x.values.size(); ++n) w[n] += vorticity_change.component(t)[n];
   }
   woven_edges.read(stencils.reach, smoothing.edges_seen(vorticity, seen));
-  for (std::size_t p = 0; p < grains.size(); ++p) {
-    const Vec3 turn = 0.5 * turning_at(p);
-    torque[p] = scaled(rho * spin_strength[p] / dt, turn - spin_target[p]);
-    Vec3 slip = turn - spin_start[p];
-    if (!grains.fixed[p]) {
-      const double d = grains.diameter[p];
-      spin_push[p] = torque[p] / sphere_inertia(grains.density[p] * sphere_volume(d), d);
-      slip -= dt * spin_push[p];
-    }
-    books.exchange_loss += dot(torque[p], slip);
-  }
+  for (std::size_t p = 0; p < grains.size(); ++p) book_torque(grains, p, 0.5 * turning_at(p), dt);
   const auto walls = spin_exchange->on_walls(vorticity);
   books.on_bottom += rho / dt * walls.bottom, books.on_lid += rho / dt * walls.top;
 }

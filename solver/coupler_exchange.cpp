@@ -15,13 +15,13 @@ constexpr double explicit_viscosity_limit = 1.0 / 12;
 
 }   // namespace
 
-Vec3 Coupler::Parts::weight(double density) const {
+Vec3 Coupler::Rung::weight(double density) const {
   return scene.terms.buoyancy ? (1 - scene.bed.fluid.density / density) * scene.bed.gravity : scene.bed.gravity;
 }
 
 /// Ballistic velocities, and what drag and added mass exchange over the step: added mass resists increments of velocity as
 /// drag resists velocity, so that E = beta T + m_a stands where beta T stood.
-void Coupler::Parts::predict_grains(const State& state, double dt) {
+void Coupler::Rung::predict_grains(const State& state, double dt) {
   const Grains& grains = state.grains;
   const double rho = scene.bed.fluid.density;
   const std::size_t count = grains.size();
@@ -48,7 +48,7 @@ void Coupler::Parts::predict_grains(const State& state, double dt) {
 /// Viscous torque c (curl u*/2 - omega') with the spin omega' at the end of the step, as if the contact torques of the last
 /// step went on: c' (curl u*/2 - omega_t), c' = c/(1 + lambda T), lambda = c rho_f/I. Near a wall c (s curl u*/2 - r omega'),
 /// so c' = c s/(1 + r lambda T) and (r/s) omega_t.
-void Coupler::Parts::predict_spins(const State& state, double dt) {
+void Coupler::Rung::predict_spins(const State& state, double dt) {
   const Grains& grains = state.grains;
   const double rho = scene.bed.fluid.density, nu = scene.bed.fluid.viscosity;
   const std::size_t count = grains.size();
@@ -70,7 +70,6 @@ void Coupler::Parts::predict_spins(const State& state, double dt) {
       spin_target[p][t] = wall.spin[t] / wall.shear[t] * spin_start[p][t];
     }
   }
-  spin_exchange->prepare(stencils, spin_strength, spin_target, smoothing);
 }
 
 /// Whether viscous stress joins the drag solve.
@@ -157,7 +156,7 @@ void Coupler::Parts::solve_drag(State& state, double dt) {
   Stopwatch watch(times.drag);
   const bool implicit = implicit_viscosity(dt);
   predict_grains(state, dt);
-  if (spin_exchange) predict_spins(state, dt);
+  if (spin_exchange) predict_spins(state, dt), spin_exchange->prepare(stencils, spin_strength, spin_target, smoothing);
   if (fluid_alone() && !implicit) {
     move_fluid_alone(state, dt);
     return book_drive_of_fluid(state);

@@ -8,7 +8,7 @@
 namespace bedload {
 
 /// Sub-steps of {contacts, motion} under the constant push; drag does not change within them.
-void Coupler::Parts::move_grains(State& state, double dt) {
+void Coupler::Rung::move_grains(State& state, double dt) {
   Stopwatch watch(times.contacts);
   Grains& grains = state.grains;
   moved.assign(grains.size(), {});
@@ -26,7 +26,7 @@ void Coupler::Parts::move_grains(State& state, double dt) {
     x = box.wrapped(x);
     for (int c = 0; c < 3; ++c) {
       if (!std::isfinite(x[c])) health.finite = false;
-      health.grain_travel = std::max(health.grain_travel, std::abs(moved[p][c]) / grid.h[c]);
+      health.grain_travel = std::max(health.grain_travel, std::abs(moved[p][c]) / reach[c]);
       if (x[c] < 0 || x[c] > box.length[c]) health.lost_grain = true;
     }
   }

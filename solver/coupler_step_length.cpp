@@ -1,5 +1,5 @@
 // How long a step may be.
-#include "solver/coupler_parts.hpp"
+#include "solver/coupler_rung.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -44,14 +44,14 @@ bool any_mobile(const Grains& grains) {
   return std::find(grains.fixed.begin(), grains.fixed.end(), 0) != grains.fixed.end();
 }
 
-void Coupler::Parts::shorten(double& step, double limit, StepLimit by) {
+void Coupler::Rung::shorten(double& step, double limit, StepLimit by) {
   if (!(limit < step)) return;
   step = limit;
   health.limited_by = by;
 }
 
 /// The longest step, in whole DEM steps, that every limit allows (docs/physics_coupling.md, "The fluid step").
-double Coupler::Parts::choose_step(const State& state, double longest) {
+double Coupler::Rung::choose_step(const State& state, double longest) {
   double step = longest;
   if (courant_rate > 0) shorten(step, largest_cfl / courant_rate, StepLimit::cfl);
   if (any_mobile(state.grains)) {
@@ -67,9 +67,9 @@ double Coupler::Parts::choose_step(const State& state, double longest) {
 /// Travel, relaxation by drag, half the duration of a collision, a tenth of the time in which a grain falls its diameter.
 /// Returns the least number of sub-steps: in a single one a dashpot sees, of grains that drag holds fast, only the change of
 /// contact forces since the last step, which drag has not met yet, and drives it up.
-int Coupler::Parts::limit_by_grains(const State& state, double& step) {
+int Coupler::Rung::limit_by_grains(const State& state, double& step) {
   const Grains& grains = state.grains;
-  const double shortest_edge = std::min({grid.h.x, grid.h.y, grid.h.z});
+  const double shortest_edge = std::min({reach.x, reach.y, reach.z});
   double fastest = 0;
   for (std::size_t p = 0; p < grains.size(); ++p)
     if (!grains.fixed[p]) fastest = std::max(fastest, norm2(grains.velocity[p]));

@@ -72,6 +72,7 @@ struct Experiment::Parts {
   StepHealth hold(State&);
   StepHealth coupled_step(State&);
   void begin_hold(State&);
+  void forget_flow(State&) const;
   void add_steady_flow(State&, const ImposedFlow& change) const;
 };
 
@@ -244,6 +245,7 @@ void Experiment::Parts::begin_hold(State& state) {
   search.level = plan.level, search.duration = plan.duration;
   search.bed_height = bed_surface(state.grains, scene.bed.length, scene.bed.grains.diameter).height;
   const ImposedFlow flow = imposed_level(scene, plan.level, search.bed_height);
+  if (scene.fluid == FluidRung::profile) forget_flow(state);   // it is the new level's alone
   if (scene.developed)
     add_steady_flow(state,
                     {.lid_speed = flow.lid_speed - search.lid_speed, .gradient = flow.gradient - search.gradient});
@@ -269,9 +271,13 @@ void Experiment::Parts::return_to_settled_bed(State& state) {
   if (settled.grains.size() != state.grains.size())
     throw Error(ErrorKind::internal, fmt::format("a search on {} grains has a settled bed of {}", state.grains.size(),
                                                  settled.grains.size()));
-  state.fluid = initial_flow(scene);
+  forget_flow(state);
   state.grains = settled.grains;
   state.contacts = settled.contacts;
+}
+
+void Experiment::Parts::forget_flow(State& state) const {
+  state.fluid = initial_flow(scene);
   Search& s = state.search;
   s.shields = s.lid_speed = s.gradient = s.push = s.through_flow = 0;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/coupling/void_fraction.hpp"
+#include "solver/fluid/column_flow.hpp"
 #include "solver/scene.hpp"
 #include "solver/state.hpp"
 
@@ -21,6 +22,11 @@ class MixtureMomentum {
   StreamwiseMomentum operator()(const State&, double level);
 
  private:
+  void add_cells(const State&, std::vector<double>& plane);    // sum of eps u over each plane of cells
+  void add_layers(const State&, std::vector<double>& plane);   // eps u of each layer
+
+  FluidRung rung_;
+  Column column_;   // of a rung below the box
   StaggeredGrid grid_;
   KernelSmoothing smoothing_;
   double fluid_density_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -299,10 +300,40 @@ std::vector<ModelChoice> required_models(const SceneFacts& facts) {
     auto& m = models.emplace_back();
     if (facts.grains.any || !of_grains) m = rule.judge(facts);
     else m.ratio = no_number, m.reason = without_grains;
-    m.term = rule.term, m.on = facts.scene.terms.*member(rule.term);
+    const auto term = member(rule.term);
+    if (!carries(facts.scene.fluid, term)) {
+      const bool missed = std::exchange(m.wanted, false);
+      m.reason += fmt::format("; models.fluid = \"{}\" does not carry it{}", name_of(facts.scene.fluid),
+                              missed ? ": the box would" : "");
+    }
+    const bool of_model_a = term == &Terms::pressure_gradient || term == &Terms::viscous_stress;
+    if (facts.scene.fluid == FluidRung::column && of_model_a && facts.grains.any && !m.wanted)
+      m.wanted = true, m.reason += "; the column's balance is that of Model A";
+    m.term = rule.term, m.on = facts.scene.terms.*term;
   }
   if (facts.grains.any) models.push_back(rolling_friction(facts));
   return models;
+}
+
+ModelChoice fluid_choice(const Scene& scene) {
+  constexpr auto by_itself =
+      "\"auto\" takes the box: a column only where a measured trade shows the difference to be below "
+      "the accuracy asked for, an imposed profile never";
+  const char* what = scene.fluid == FluidRung::box ? "the flow in three dimensions"
+                     : scene.fluid == FluidRung::column
+                         ? "one velocity at each height, both ways; as the study file says"
+                         : "an imposed flow, which does not answer to grains; as the study file says";
+  return {.term = fmt::format("fluid = {}", name_of(scene.fluid)),
+          .on = true,
+          .wanted = scene.fluid == FluidRung::box,
+          .ratio = no_number,
+          .reason = fmt::format("{}; {}", what, by_itself)};
+}
+
+std::vector<ModelChoice> decisions_of(const Scene& scene) {
+  std::vector<ModelChoice> all = required_models(scene);
+  all.insert(all.begin(), fluid_choice(scene));
+  return all;
 }
 
 Terms wanted_terms(const Scene& scene) {

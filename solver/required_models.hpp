@@ -20,6 +20,12 @@ struct ModelChoice {
 /// lubrication, which are alternatives, for one; never for exposure.
 std::vector<ModelChoice> required_models(const SceneFacts&);
 
+/// The rung of the fluid that the scene stands on, and what "auto" would take: as one more decision.
+ModelChoice fluid_choice(const Scene&);
+
+/// That, and then the decision for every term: what plan, explain, case.toml and the database show.
+std::vector<ModelChoice> decisions_of(const Scene&);
+
 /// The terms that the rules want: what terms = "auto" stands for. Does not depend on scene.terms, nor on how far a ramp goes.
 Terms wanted_terms(const Scene&);
 

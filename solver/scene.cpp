@@ -48,6 +48,12 @@ void check_fit(const BedScene& bed, Found& found) {
 
 void check_grid(const Scene& scene, Found& found) {
   const auto& grid = scene.grid;
+  if (scene.fluid != FluidRung::box) {
+    if (grid.cells[2] < 3)
+      found.push_back({"box.cell.z", fmt::format("{} layers are no profile", grid.cells[2]),
+                       fmt::format("layers of at most {:.4g} m", scene.bed.length.z / 3)});
+    return;
+  }
   const char* cells[] = {"box.cell.xy", "box.cell.xy", "box.cell.z"};
   for (int c = 0; c < 3; ++c) {
     if (grid.cells[c] >= 3) continue;
@@ -64,6 +70,40 @@ void check_grid(const Scene& scene, Found& found) {
                                "around a face",
                                grid.cell_volume() / cube),
                    "cells of at least 1 d^3, for example xy = \"2 d\" with z = \"0.5 d\""});
+}
+
+/// What a flow with one velocity at each height cannot have.
+void check_rung(const Scene& scene, Found& found) {
+  if (scene.fluid == FluidRung::box) return;
+  const auto& bed = scene.bed;
+  const bool column = scene.fluid == FluidRung::column;
+  const std::string_view name = column ? "column" : "profile";
+  const auto refuse = [&](const char* key, const std::string& message, const std::string& hint) {
+    found.push_back({key, fmt::format("models.fluid = \"{}\": {}", name, message), hint});
+  };
+  for (const int c : {0, 1})
+    if (bed.sides[c] == Side::wall)
+      refuse(c == 0 ? "box.x" : "box.y", "one velocity for each height knows no side walls",
+             fmt::format("box.{} = \"periodic\", or models.fluid = \"box\"", "xy"[c]));
+  if (bed.sides[2] == Side::periodic)
+    refuse("box.z", "its flow stands on a bottom, and a periodic z has none",
+           "box.z = \"wall\", or models.fluid = \"box\"");
+  if (scene.fluid_start == FluidStart::taylor_green)
+    refuse("fluid.start", "vortices have no one velocity for each height",
+           "start = \"rest\", or models.fluid = \"box\"");
+  if (scene.smoothing != Smoothing{})
+    refuse("models.smoothing", "slices of grains take the place of the kernel that it widens",
+           "leave smoothing out, or models.fluid = \"box\"");
+  for (const auto& [term, member] : named_terms)
+    if (scene.terms.*member && !carries(scene.fluid, member))
+      refuse("models.terms", fmt::format("it does not carry {}", term),
+             fmt::format("leave {} out, terms = \"auto\", or models.fluid = \"box\"", term));
+  if (column && scene.terms.drag && scene.terms.model_b())
+    refuse("models.terms", "its balance is that of Model A, without which momentum would not close",
+           "add \"pressure_gradient\" and \"viscous_stress\", or models.fluid = \"box\"");
+  if (!column && !scene.developed)
+    refuse("drive.start", "a flow that answers to nothing is imposed as it is when steady",
+           "start = \"developed\", or models.fluid = \"column\"");
 }
 
 void check_drive(const Scene& scene, Found& found) {
@@ -196,6 +236,12 @@ void check_steps(const Scene& scene, Found& found) {
 
 }   // namespace
 
+bool carries(FluidRung rung, bool Terms::*term) {
+  constexpr bool Terms::*of_the_box[] = {&Terms::self_disturbance, &Terms::added_mass, &Terms::viscous_torque,
+                                         &Terms::wall_forces};
+  return rung == FluidRung::box || std::ranges::find(of_the_box, term) == std::end(of_the_box);
+}
+
 std::vector<SceneProblem> grain_problems_of(const BedScene& bed) {
   const auto& g = bed.grains;
   Found found;
@@ -219,6 +265,7 @@ std::vector<SceneProblem> problems_of(const Scene& scene) {
   Found found = grain_problems_of(scene.bed);
   check_fit(scene.bed, found);
   check_grid(scene, found);
+  check_rung(scene, found);
   check_drive(scene, found);
   check_shear(scene, found);
   check_terms(scene, found);

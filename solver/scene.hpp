@@ -55,6 +55,13 @@ inline constexpr NamedTerm named_terms[] = {{"drag", &Terms::drag},
                                             {"exposure", &Terms::exposure},
                                             {"turbulence", &Terms::turbulence}};
 
+/// How much of the flow is computed: a profile that is imposed and does not answer to grains, one velocity for each height that
+/// does, or the flow in three dimensions. The first two have a grid of one cell across.
+enum class FluidRung { profile, column, box };
+constexpr std::string_view name_of(FluidRung rung) {
+  return rung == FluidRung::profile ? "profile" : rung == FluidRung::column ? "column" : "box";
+}
+
 /// The fluid before anything has moved.
 enum class FluidStart { rest, taylor_green };
 
@@ -101,6 +108,7 @@ struct Scene {
   double bottom_roughness = 0;   // k_s of the bottom wall [m]; 0 = smooth
   BedShear shear;
   Onset onset;
+  FluidRung fluid = FluidRung::box;
   DragLawName drag = DragLawName::di_felice;
   Terms terms;
   Smoothing smoothing;
@@ -108,6 +116,10 @@ struct Scene {
   RecordPlan record;
   bool bed_only = false;   // finished once the bed has settled (a bed directory)
 };
+
+/// Whether a rung has a term: what is made for the kernel between grains and cells, or for fluid that turns or goes along with
+/// single grains, only the box has.
+bool carries(FluidRung, bool Terms::*term);
 
 /// Why a scene cannot run: the parameter by its name in a study file, what is wrong with it, the likely fix.
 struct SceneProblem {

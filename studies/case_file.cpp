@@ -51,7 +51,7 @@ std::string toml_value(const StudyKey& key, const Input& input) {
 
 std::string models_as_comments(const Scene& scene) {
   std::string text = "\n# Models, and why:\n";
-  for (const auto& model : required_models(scene))
+  for (const auto& model : decisions_of(scene))
     text += fmt::format("#   {:<18} {:<4} {}\n", model.term, model.on ? "on" : "off", model.reason);
   for (const auto& warning : warnings_of(scene)) text += fmt::format("# warning: {}\n", warning);
   return text;

@@ -122,8 +122,8 @@ void Resolver::start() {
 }
 
 void Resolver::box() {
-  take_all(
-      {"box.length", "box.width", "box.height", "box.cell.xy", "box.cell.z", "box.x", "box.y", "box.z", "box.top"});
+  take_all({"box.length", "box.width", "box.height", "box.cell.z", "box.x", "box.y", "box.z", "box.top"});
+  if (word("models.fluid") == "box") take("box.cell.xy");   // layers are as wide as the box
   take_unless_default("box.roughness");
   for (const auto& [cell, edge] :
        {std::pair{"box.cell.xy", "box.length"}, {"box.cell.xy", "box.width"}, {"box.cell.z", "box.height"}}) {
@@ -299,7 +299,8 @@ void Resolver::bisection() {
 }
 
 void Resolver::models() {
-  inputs.values["models.fluid"] = std::string("box");
+  if (is_auto("models.fluid")) inputs.values["models.fluid"] = std::string("box");
+  else take("models.fluid");
   take("models.drag");
   if (is_auto("models.terms"))
     inputs.values["models.terms"] = std::vector<std::string>{};   // until wanted() knows them

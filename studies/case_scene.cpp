@@ -71,10 +71,17 @@ BedScene bed_scene_of(const CaseInputs& inputs) {
   return bed;
 }
 
-/// Cells of about the size asked for, a whole number of them along each edge.
+FluidRung rung_of(const CaseInputs& inputs) {
+  const std::string& word = inputs.word("models.fluid");
+  return word == "profile" ? FluidRung::profile : word == "column" ? FluidRung::column : FluidRung::box;
+}
+
+/// Cells of about the size asked for, a whole number of them along each edge; layers are cells as wide as the box.
 StaggeredGrid grid_of(const CaseInputs& inputs, const BedScene& bed) {
   StaggeredGrid grid{.sides = bed.sides, .top = bed.top};
-  const double asked[] = {inputs.number("box.cell.xy"), inputs.number("box.cell.xy"), inputs.number("box.cell.z")};
+  const bool layers = rung_of(inputs) != FluidRung::box;
+  const double asked[] = {layers ? bed.length.x : inputs.number("box.cell.xy"),
+                          layers ? bed.length.y : inputs.number("box.cell.xy"), inputs.number("box.cell.z")};
   for (int c = 0; c < 3; ++c) {
     grid.cells[c] = std::max(1, static_cast<int>(std::lround(bed.length[c] / asked[c])));
     grid.h[c] = bed.length[c] / grid.cells[c];
@@ -131,6 +138,7 @@ Scene scene_of(const CaseInputs& inputs) {
   Scene scene;
   scene.bed = bed_scene_of(inputs);
   scene.bed_only = inputs.bed_only;
+  scene.fluid = rung_of(inputs);
   scene.grid = grid_of(inputs, scene.bed);
   scene.drive = drive_of(inputs);
   scene.developed = !inputs.has("drive.start");

@@ -86,7 +86,7 @@ Rows scene_numbers(const Scene& scene) {
 Rows scene_models(const Scene& scene) {
   Rows rows{{"term", "on", "wanted", "ratio", "reason"}, {}};
   const auto yes = [](bool is) { return std::string(is ? "yes" : "no"); };
-  for (const auto& m : required_models(scene))
+  for (const auto& m : decisions_of(scene))
     rows.rows.push_back({m.term, yes(m.on), yes(m.wanted), real_or_null(m.ratio), m.reason});
   return rows;
 }

@@ -314,7 +314,7 @@ void store_models(Database& database, const std::string& case_id, const Scene& s
   for (const char* table : {"models", "warnings"})
     database.execute(fmt::format("DELETE FROM {} WHERE case_id = ?", table), {case_id});
   std::uint64_t position = 0;
-  for (const auto& m : required_models(scene))
+  for (const auto& m : decisions_of(scene))
     insert(database, "models",
            {case_id, whole(position++), m.term, flag(m.on), flag(m.wanted), real_or_null(m.ratio), m.reason});
   position = 0;

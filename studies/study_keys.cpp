@@ -123,7 +123,7 @@ constexpr StudyKey keys[] = {
     not_physics(word("onset.criterion", "", "flux|moving_fraction", "flux")),
     not_physics(number("onset.value", Range::positive, "", "1e-2")),
 
-    word("models.fluid", "fluid", "auto|box", "auto", "profile|column"),
+    word("models.fluid", "fluid", "auto|profile|column|box", "auto"),
     word("models.drag", "drag", laws, "di_felice"),
     {"models.smoothing.xy", Kind::quantity, dimension::length, Range::not_negative, {}, {}, "0 m", true, "sxy"},
     {"models.smoothing.z", Kind::quantity, dimension::length, Range::not_negative, {}, {}, "0 m", true, "sz"},

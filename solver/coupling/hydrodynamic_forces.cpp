@@ -107,8 +107,13 @@ void sample_flow(const StaggeredGrid& grid, const Grains& grains, const Stencils
   }
   if (terms.drag || terms.wall_forces || terms.added_mass)
     find_packing(grid, grains, eps, flow.void_fraction, flow.packing, smoothing);
+  find_drag(grid, grains, law, viscosity, terms, flow);
+}
+
+void find_drag(const StaggeredGrid& grid, const Grains& grains, const DragLaw& law, double viscosity,
+               const Terms& terms, FlowAtGrains& flow) {
   if (!terms.drag) return;
-  if (terms.self_disturbance) flow.removed.assign(n, {});
+  if (terms.self_disturbance) flow.removed.assign(grains.size(), {});
   if (terms.self_disturbance && !flow.self_disturbance) flow.self_disturbance.emplace(grid);
   std::visit([&](const auto& l) { evaluate_drag(l, grid, grains, viscosity, terms.model_b(), flow); }, law);
 }

@@ -42,4 +42,8 @@ void sample_flow(const StaggeredGrid&, const Grains&, const Stencils&, const Fac
                  const FaceFields& acceleration, const Field<Centre>& void_fraction, const DragLaw&, double viscosity,
                  const Terms&, FlowAtGrains&, const KernelSmoothing& = {});
 
+/// The last part of it: flow.drag of the velocity, void fraction and packing that `flow` holds, and flow.removed. `drag` holds an
+/// entry for each grain, 0 without the term.
+void find_drag(const StaggeredGrid&, const Grains&, const DragLaw&, double viscosity, const Terms&, FlowAtGrains&);
+
 }   // namespace bedload

@@ -39,11 +39,16 @@ ColumnFlow::ColumnFlow(const Column& given) : column_(given) {
   lid_ = {{column_.layers * column_.thickness, false, 0, 0}};
 }
 
+void ColumnFlow::measure(std::span<const double> u, const SolidLayers& solid, double lid_speed) {
+  clamps_ = find_void(solid.fraction, void_);
+  if (column_.packing > 0) find_eddies(u, solid.fraction, lid_speed);
+  find_stress(u, solid, lid_speed);
+  find_stress_divergence(solid);
+}
+
 void ColumnFlow::step(std::span<double> u, const SolidLayers& solid, const LayerExchange& exchange,
                       const ColumnDrive& drive, double dt) {
-  clamps_ = find_void(solid.fraction, void_);
-  if (column_.packing > 0) find_eddies(u, solid.fraction, drive.lid_speed);
-  find_stress(u, solid, drive.lid_speed);
+  measure(u, solid, drive.lid_speed);
   assemble(u, exchange, drive, dt);
   solve();
   // Stresses at the end of the step; those of eddies are linear about its start.
@@ -54,12 +59,8 @@ void ColumnFlow::step(std::span<double> u, const SolidLayers& solid, const Layer
     viscous_[e] += viscous;
     stress_[e] += viscous + 2 * eddies_[e] * (above - below);
   }
-  for (std::size_t k = 0; k < u.size(); ++k) {
-    u[k] += change_[k];
-    const double left = 1 - void_[k],
-                 share = solid.fraction[k] > left ? left / solid.fraction[k] : 1;   // where clamped
-    stress_divergence_[k] = share * (viscous_[k + 1] - viscous_[k]) / column_.thickness;
-  }
+  for (std::size_t k = 0; k < u.size(); ++k) u[k] += change_[k];
+  find_stress_divergence(solid);
   book(u, solid, exchange, drive, dt);
 }
 
@@ -118,6 +119,14 @@ void ColumnFlow::find_stress(std::span<const double> u, const SolidLayers& solid
     const double slip = (e < n ? u[e] : lid_speed) - (e > 0 ? u[e - 1] : 0);
     viscous_[e] = conductance_[e] * (above - below);
     stress_[e] = viscous_[e] + eddies_[e] * slip;
+  }
+}
+
+/// What solid feels of the viscous stress: where eps is clamped, the part that is left to it.
+void ColumnFlow::find_stress_divergence(const SolidLayers& solid) {
+  for (std::size_t k = 0; k < stress_divergence_.size(); ++k) {
+    const double left = 1 - void_[k], share = solid.fraction[k] > left ? left / solid.fraction[k] : 1;
+    stress_divergence_[k] = share * (viscous_[k + 1] - viscous_[k]) / column_.thickness;
   }
 }
 

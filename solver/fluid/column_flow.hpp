@@ -63,17 +63,20 @@ class ColumnFlow {
   /// Neither viscosity nor exchange bounds dt. Grains stand still meanwhile; carry() answers to their moving.
   void step(std::span<double> u, const SolidLayers&, const LayerExchange&, const ColumnDrive&, double dt);
 
+  /// Stresses of a flow as it stands, without a step: what stress_divergence(), stress() and clamps() tell of it next.
+  void measure(std::span<const double> u, const SolidLayers&, double lid_speed);
+
   /// The fluid that grains displace on their way up or down takes its momentum along: sum eps u stays, a uniform flow too,
   /// and u makes no new extremes. phi before and after the grains moved, of the same solid volume.
   void carry(std::span<double> u, std::span<const double> before, std::span<const double> after);
 
-  /// Of the last step, by layer [m/s2]: d/dz of the viscous stress per fluid density, of which a grain feels its volume times;
+  /// Of the last step or measure(), by layer [m/s2]: d/dz of the viscous stress per fluid density, of which a grain feels its volume times;
   /// where eps is clamped, the part of it that is left to the solid.
   std::span<const double> stress_divergence() const { return stress_divergence_; }
-  /// Of the last step, at the edges z_0..z_n [m2/s2]: viscous stress plus that of eddies, per fluid density.
+  /// Of the same, at the edges z_0..z_n [m2/s2]: viscous stress plus that of eddies, per fluid density.
   std::span<const double> stress() const { return stress_; }
   const ColumnBooks& books() const { return books_; }
-  /// Layers whose eps was clamped in the last step.
+  /// Layers whose eps was clamped in it.
   int clamps() const { return clamps_; }
 
  private:
@@ -81,6 +84,7 @@ class ColumnFlow {
   void find_eddies(std::span<const double> u, std::span<const double> solid_fraction, double lid_speed);
   void find_lengths(std::span<const double> solid_fraction, double lid_slip);
   void find_stress(std::span<const double> u, const SolidLayers&, double lid_speed);
+  void find_stress_divergence(const SolidLayers&);
   void assemble(std::span<const double> u, const LayerExchange&, const ColumnDrive&, double dt);
   void solve();
   void book(std::span<const double> u, const SolidLayers&, const LayerExchange&, const ColumnDrive&, double dt);

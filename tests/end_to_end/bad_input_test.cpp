@@ -80,8 +80,6 @@ TEST_F(BadInput, KeyOfALaterVersion) {
            Later{"", "executor = \"slurm\"", "run.executor: \"slurm\" is not in this version"},
            Later{"", "ranks = 2", "run.ranks: 2 ranks per case are not in this version"},
            Later{"", "wall_limit = \"1 h\"", "run.wall_limit is not in this version (a wall time limit per attempt)"},
-           Later{"[models]\n", "fluid = \"profile\"", "models.fluid: \"profile\" is not in this version"},
-           Later{"[models]\n", "fluid = \"column\"", "models.fluid: \"column\" is not in this version"},
        })
     expect_refused(tiny_study + table + line + "\n", 65, message);
 }

@@ -86,8 +86,9 @@ TEST(Examples, VerdictsFitAPageAndAProgram) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
   const auto json = nlohmann::json::parse(plan_of("seed-erosion", {"--json"}).out);
   ASSERT_EQ(json.size(), 1u);
-  EXPECT_EQ(json[0]["models"].size(), 15u);
-  EXPECT_EQ(json[0]["models"][0]["term"], "drag");
+  EXPECT_EQ(json[0]["models"].size(), 16u);   // the rung of the fluid, and every term
+  EXPECT_EQ(json[0]["models"][0]["term"], "fluid = box");
+  EXPECT_EQ(json[0]["models"][1]["term"], "drag");
   EXPECT_GT(json[0]["numbers"].size(), 15u);
   EXPECT_GE(json[0]["warnings"].size(), 2u);
 }

@@ -121,6 +121,17 @@ TinyScene taken_again() {
   return {"taken_again", scene};
 }
 
+TinyScene layers(FluidRung rung) {
+  Scene scene = poured_bed(120, {8, 6, 10}, {1, 1, 25});
+  scene.fluid = rung;
+  scene.bed.fluid.viscosity = 2e-6;   // eddies and lifts matter
+  scene.bed.grains.rolling_friction = 0.1;
+  scene.terms.shear_lift = scene.terms.magnus = scene.terms.exposure = true;
+  scene.terms.wet_restitution = scene.terms.turbulence = true;
+  add_ramp(scene, rung == FluidRung::column ? FlowRamp::Kind::lid : FlowRamp::Kind::pressure, {0.05, 1.5, 0.2}, 30);
+  return {std::string(name_of(rung)), scene};
+}
+
 TinyScene search() {
   Scene scene = poured_bed(0, {8, 6, 6}, {4, 3, 12});
   scene.bed.source = {.kind = BedSource::Kind::file, .count = 20, .csv = "x,y,z,diameter,density,fixed\n"};

@@ -33,6 +33,9 @@ TinyScene every_term();
 /// is undone and taken again shorter.
 TinyScene taken_again();
 
+/// A poured bed under a flow of one velocity at each height that answers to it or, driven by a gradient, does not.
+TinyScene layers(FluidRung);
+
 /// A layer of grains on the bottom, searched for its threshold: holds that branch from where it stood at first.
 TinyScene search();
 
@@ -40,8 +43,16 @@ TinyScene search();
 TinyScene sheared();
 
 inline std::vector<TinyScene> tiny_scenes() {
-  return {lid_driven(), stream_on_a_slope(), suspension(), syrup_through_a_layer(),
-          every_term(), taken_again(),       search(),     sheared()};
+  return {lid_driven(),
+          stream_on_a_slope(),
+          suspension(),
+          syrup_through_a_layer(),
+          every_term(),
+          taken_again(),
+          layers(FluidRung::profile),
+          layers(FluidRung::column),
+          search(),
+          sheared()};
 }
 
 }   // namespace bedload::test

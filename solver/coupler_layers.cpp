@@ -1,0 +1,178 @@
+// One coupled step of grains and a layered flow, in the order of the physics.
+#include "solver/coupler_layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bedload {
+namespace {
+
+constexpr double packed = 0.6;   // phi_max of the mixing length: random close packing, less what slices of it scatter
+
+bool all_finite(std::span<const double> u, const Grains& g) {
+  bool finite = std::ranges::all_of(u, [](double each) { return std::isfinite(each); });
+  for (const auto* each : {&g.velocity, &g.spin, &g.mean_contact_force, &g.mean_contact_torque})
+    for (const Vec3& v : *each) finite &= std::isfinite(norm2(v));
+  return finite;
+}
+
+/// Grains may cross layers within a step; what they may not pass over is the distance over which they sample.
+Vec3 own_diameter(const Scene& scene) {
+  const double d = scene.bed.grains.diameter;
+  return {d, d, d};
+}
+
+}   // namespace
+
+Column column_of(const Scene& scene) {
+  return {.layers = scene.grid.cells[2],
+          .thickness = scene.grid.h.z,
+          .viscosity = scene.bed.fluid.viscosity,
+          .top = scene.bed.top,
+          .packing = scene.terms.turbulence ? packed : 0,
+          .sand_roughness = scene.bottom_roughness};
+}
+
+Coupler::Layers::Layers(const Scene& given)
+    : Rung(given, own_diameter(given)),
+      column(column_of(given)),
+      area(given.bed.length.x * given.bed.length.y),
+      fluid(column),
+      shear_(static_cast<std::size_t>(column.layers)) {}
+
+std::span<double> Coupler::Layers::profile(State& state) const {
+  return {&state.fluid.velocity.x[grid.index(0, 0, 0)], static_cast<std::size_t>(column.layers)};
+}
+
+void Coupler::Layers::step(State& state, double longest) {
+  place_in_layers(state.grains);
+  sample_at_grains(state);
+  const double dt = choose_step(state, longest);
+  predict_grains(state, dt);
+  {
+    Stopwatch watch(times.drag);
+    advance_fluid(state, dt);
+    feel_end_of_step(state);
+    book_exchange(state, dt);
+  }
+  move_grains(state, dt);
+  if (!failed()) displace_fluid(state);
+  health.finite &= all_finite(profile(state), state.grains);
+}
+
+void Coupler::Layers::place_in_layers(const Grains& grains) {
+  Stopwatch watch(times.deposit);
+  positions = grains.position;
+  find_slices(column, grains, slices);
+  average_grains(column, grains, slices, area, solid);
+}
+
+/// Flow, void fraction and drag at the grains; a layer holds all grains at its height, so that a grain's own part is small.
+void Coupler::Layers::sample_at_grains(State& state) {
+  Stopwatch watch(times.sample);
+  const Grains& grains = state.grains;
+  const std::size_t count = grains.size();
+  const std::span<const double> u = profile(state);
+  flow.velocity.assign(count, {}), flow.void_fraction.resize(count), flow.acceleration.assign(count, {});
+  flow.drag.assign(count, {}), flow.force.assign(count, {});
+  flow.packing.own.resize(count), flow.packing.others.resize(count);
+  flow.void_clamps = flow.disturbance_clamps = flow.lift_clamps = 0;
+  for (std::size_t p = 0; p < count; ++p) {
+    double squares = 0;
+    for (std::size_t n = slices.begin[p]; n < slices.begin[p + 1]; ++n) squares += slices.part[n] * slices.part[n];
+    const double held = sample(slices, p, solid.fraction);
+    flow.velocity[p].x = sample(slices, p, u);
+    flow.packing.own[p] = squares * sphere_volume(grains.diameter[p]) / (area * column.thickness);
+    flow.packing.others[p] = std::max(0.0, held - flow.packing.own[p]);
+    flow.void_fraction[p] = 1 - held;
+  }
+  find_drag(grid, grains, law, column.viscosity, scene.terms, flow);
+  sample_stress(stress_divergence(state, u), state);
+  stress_before_.resize(count);
+  for (std::size_t p = 0; p < count; ++p) stress_before_[p] = flow.acceleration[p].x;
+  health.void_clamps = flow.void_clamps;
+  if (!wants_vorticity()) return;
+  const double h = column.thickness;
+  for (std::size_t k = 0; k < u.size(); ++k) {   // between the edges of a layer; at a wall from its own speed
+    const double below = k > 0 ? 0.5 * (u[k - 1] + u[k]) : 0;
+    const double above = k + 1 < u.size()         ? 0.5 * (u[k] + u[k + 1])
+                         : column.top == Top::lid ? state.search.lid_speed
+                                                  : u[k];
+    shear_[k] = (above - below) / h;
+  }
+  flow.vorticity.assign(count, {});
+  for (std::size_t p = 0; p < count; ++p) flow.vorticity[p].y = sample(slices, p, shear_);
+  add_explicit_forces({grid, PeriodicBox(scene.bed), column.viscosity, state.search.lid_speed}, grains, scene.terms,
+                      sheltering, flow);
+  health.lift_clamps = flow.lift_clamps;
+}
+
+/// What acts on the volume of grains: drive and viscous stress.
+void Coupler::Layers::sample_stress(std::span<const double> divergence, const State& state) {
+  const double driven = drive(state).x;
+  for (std::size_t p = 0; p < flow.acceleration.size(); ++p)
+    flow.acceleration[p].x = driven + sample(slices, p, divergence);
+}
+
+/// The flow at the grains at the end of the step, and its stress in the place of what the prediction took it for.
+void Coupler::Layers::feel_end_of_step(State& state) {
+  const Grains& grains = state.grains;
+  const std::span<const double> u = profile(state);
+  sample_stress(fluid.stress_divergence(), state);
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    flow_velocity[p] = {sample(slices, p, u), 0, 0};
+    if (!grains.fixed[p] && !model_b())
+      push[p].x += scene.bed.fluid.density / grains.density[p] * (flow.acceleration[p].x - stress_before_[p]);
+  }
+}
+
+std::span<const double> Coupler::ColumnRung::stress_divergence(const State& state, std::span<const double> u) {
+  fluid.measure(u, solid, state.search.lid_speed);
+  health.face_clamps = static_cast<std::uint64_t>(fluid.clamps());
+  return fluid.stress_divergence();
+}
+
+void Coupler::ColumnRung::advance_fluid(State& state, double dt) {
+  const double gradient = state.search.gradient, rho = scene.bed.fluid.density, lid = state.search.lid_speed;
+  const std::span<double> u = profile(state);
+  const auto flux = [&] {   // of the fluid, per width [m2/s]: what the gradient works on
+    double sum = 0;
+    for (std::size_t k = 0; k < u.size(); ++k) sum += (1 - solid.fraction[k]) * u[k];
+    return sum * column.thickness;
+  };
+  const double flux_before = flux();
+  find_exchange(column, slices, {flow.drag, relaxation, ballistic, flow.force}, area, exchange_);
+  fluid.step(u, solid, exchange_, {.acceleration = gradient, .lid_speed = lid}, dt);
+  const ColumnBooks& b = fluid.books();
+  books.on_bottom.x = rho * area * b.on_bottom, books.on_lid.x = rho * area * b.on_lid;
+  books.driving.x = rho * scene.bed.length.z * area * gradient;
+  books.by_lid = -books.on_lid.x * lid;
+  books.by_gradient = rho * area * gradient * 0.5 * (flux_before + flux());
+}
+
+void Coupler::ColumnRung::displace_fluid(State& state) {
+  Stopwatch watch(times.transport);
+  if (health.substeps == 0) return;
+  find_slices(column, state.grains, slices);
+  average_grains(column, state.grains, slices, area, moved_solid_);
+  fluid.carry(profile(state), solid.fraction, moved_solid_.fraction);
+}
+
+Coupler::ProfileRung::ProfileRung(const Scene& given)
+    : Layers(given),
+      no_solid_{std::vector<double>(static_cast<std::size_t>(column.layers)),
+                std::vector<double>(static_cast<std::size_t>(column.layers))} {}
+
+std::span<const double> Coupler::ProfileRung::stress_divergence(const State& state, std::span<const double> u) {
+  fluid.measure(u, no_solid_, state.search.lid_speed);
+  return fluid.stress_divergence();
+}
+
+/// The stress on the walls is that of the flow given. It drags the lid and drives itself: nothing of that is in balance.
+void Coupler::ProfileRung::advance_fluid(State& state, double) {
+  const double per_area = scene.bed.fluid.density * area;
+  books.on_bottom.x = per_area * fluid.stress().front(), books.on_lid.x = -per_area * fluid.stress().back();
+  books.driving.x = per_area * scene.bed.length.z * state.search.gradient;
+}
+
+}   // namespace bedload

@@ -1,0 +1,180 @@
+// The fluid as profile, column and box: the same grains, drag and outputs; what each conserves, and where they agree.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "solver/bed/bed_profiles.hpp"
+#include "solver/experiment.hpp"
+#include "solver/mixture_momentum.hpp"
+#include "solver/step_judgement.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bedload::test {
+namespace {
+
+constexpr double d = 0.467e-3, nu = 1e-5, density_ratio = 1.5;   // Ga^2 = 5
+
+/// 7.2 x 5.2 x 12 d with cells of 1.8 x 1.7 x 0.5 d, or layers as high; grains of a table, under a lid.
+Scene sheared(FluidRung rung, double shields, const std::string& csv, std::uint64_t count) {
+  const bool box = rung == FluidRung::box;
+  const std::array<int, 3> cells = {box ? 4 : 1, box ? 3 : 1, 24};
+  Scene scene = fluid_scene(cells, {7.2 * d / cells[0], 5.2 * d / cells[1], 0.5 * d}, channel, nu);
+  scene.fluid = rung;
+  scene.bed.gravity = {0, 0, -9.81};
+  add_grains(scene, d, density_ratio, 0.02);
+  scene.bed.source = {.kind = BedSource::Kind::file, .count = count, .csv = csv};
+  scene.drive = {FlowRamp::Kind::lid, FlowRamp::Quantity::shields, {shields}, 0};
+  scene.onset.method = Onset::Method::none;
+  scene.record.every = 10 * scene.steps.fluid_interval;
+  return scene;
+}
+
+/// Five layers of grains, nearly a cubic lattice, each moved a little at random.
+std::string fixed_bed(int fixed) {
+  std::string csv = "x,y,z,diameter,density,fixed\n";
+  const std::vector<Vec3> places = cubic_places({7, 5, 5}, {0, 0, 0.05 * d}, {7.2 * d, 5.2 * d, 5.2 * d}, 0.01 * d, 11);
+  for (const Vec3& x : places)
+    csv += std::to_string(x.x * 1e3) + "e-3," + std::to_string(x.y * 1e3) + "e-3," + std::to_string(x.z * 1e3) +
+           "e-3," + std::to_string(d * 1e3) + "e-3,1500," + std::to_string(fixed) + "\n";
+  return csv;
+}
+constexpr std::uint64_t in_bed = 7 * 5 * 5;
+
+struct Steady {
+  double lid_stress;             // [Pa]
+  double lid_speed;              // [m/s]
+  std::vector<double> profile;   // mean over planes [m/s]
+  double shields_measured;
+};
+
+/// The flow over a fixed bed after it has gone three times through the gap.
+Steady steady_over_fixed_bed(FluidRung rung) {
+  Scene scene = sheared(rung, 0.05, fixed_bed(1), in_bed);
+  const double height = scene.bed.length.z;
+  scene.drive.dwell = 0.6 * height * height / nu;   // six times H^2/(pi^2 nu)
+  scene.steps.fluid_interval = scene.drive.dwell / 400;
+  scene.record.every = scene.drive.dwell / 10;
+  Experiment experiment(scene);
+  State state = experiment.begin();
+  while (!Experiment::finished(state)) {
+    const StepHealth health = experiment.step(state);
+    EXPECT_EQ(ailment(health), "");
+    if (testing::Test::HasFailure()) break;
+  }
+  return {-experiment.coupler().books().on_lid.x / (scene.bed.length.x * scene.bed.length.y),
+          state.record.holds.lid_speed.at(0), plane_means(state.fluid.velocity.x, scene.grid),
+          state.record.holds.shields_measured.at(0)};
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) largest = std::max(largest, std::abs(a[k] - b[k]));
+  return largest;
+}
+
+TEST(FluidRungs, ColumnAndBoxAgreeOverAFixedBedInLaminarFlow) {
+  const Steady box = steady_over_fixed_bed(FluidRung::box), column = steady_over_fixed_bed(FluidRung::column),
+               profile = steady_over_fixed_bed(FluidRung::profile);
+  EXPECT_NEAR(column.lid_stress / box.lid_stress, 1, 0.02);
+  EXPECT_LT(largest_difference(column.profile, box.profile), 0.02 * box.lid_speed);
+  EXPECT_NEAR(column.shields_measured / box.shields_measured, 1, 0.02);
+  const auto report = [&](const std::string& name, const Steady& rung) {   // the profile's is a number, no verdict
+    RecordProperty(name + "_lid_stress_per_box", std::to_string(rung.lid_stress / box.lid_stress));
+    RecordProperty(name + "_profile_per_lid_speed",
+                   std::to_string(largest_difference(rung.profile, box.profile) / box.lid_speed));
+    RecordProperty(name + "_shields_per_box", std::to_string(rung.shields_measured / box.shields_measured));
+    std::printf("%s: lid stress / box %.4f, profile off by %.4f lid speeds, measured Shields / box %.4f\n",
+                name.c_str(), rung.lid_stress / box.lid_stress,
+                largest_difference(rung.profile, box.profile) / box.lid_speed,
+                rung.shields_measured / box.shields_measured);
+  };
+  report("column", column), report("profile", profile);
+}
+
+/// Free grains that collide in a flow that throws them about: every step's books close.
+TEST(FluidRungs, AColumnAndItsGrainsMakeNoMomentum) {
+  for (const FlowRamp::Kind kind : {FlowRamp::Kind::lid, FlowRamp::Kind::pressure}) {
+    Scene scene = sheared(FluidRung::column, 1.5, fixed_bed(0), in_bed);
+    scene.drive.kind = kind;
+    scene.terms.shear_lift = scene.terms.turbulence = true;
+    scene.drive.dwell = 200 * scene.steps.fluid_interval;
+    Experiment experiment(scene);
+    State state = experiment.begin();
+    MixtureMomentum momentum(scene);
+    experiment.step(state);   // imposes the flow
+    double moved = 0, size = 0, worst = 0;
+    while (!Experiment::finished(state)) {
+      const double before = momentum(state, 0).total, time = state.clock.time;
+      const auto x = state.grains.position;
+      ASSERT_EQ(ailment(experiment.step(state)), "");
+      const StepBooks& books = experiment.coupler().books();
+      const double force = books.driving.x - books.on_bottom.x - books.on_lid.x - books.contact_on_walls.x;
+      const double after = momentum(state, 0).total;
+      worst = std::max(worst, std::abs(after - before - (state.clock.time - time) * force));
+      size = std::max({size, std::abs(before), std::abs(after)});
+      for (std::size_t p = 0; p < x.size(); ++p) moved = std::max(moved, std::abs(state.grains.position[p].z - x[p].z));
+    }
+    EXPECT_GT(moved, 1e-4 * d);
+    EXPECT_LT(worst, 1e-11 * size);
+    ASSERT_FALSE(state.record.holds.momentum_residual.empty());
+    EXPECT_GE(state.record.holds.momentum_residual[0], 0);
+    EXPECT_LT(state.record.holds.momentum_residual[0], 1e-8);
+  }
+}
+
+TEST(FluidRungs, AProfileDoesNotAnswerToGrainsAndSaysThatItsMomentumIsNotKnown) {
+  Scene scene = sheared(FluidRung::profile, 0.3, fixed_bed(0), in_bed);
+  scene.drive.dwell = 60 * scene.steps.fluid_interval;
+  Experiment experiment(scene);
+  State state = experiment.begin();
+  experiment.step(state);
+  const auto imposed = state.fluid;
+  EXPECT_GT(experiment.coupler().books().on_grains.x, 0);   // they are dragged nevertheless
+  while (!Experiment::finished(state)) ASSERT_EQ(ailment(experiment.step(state)), "");
+  EXPECT_EQ(state.fluid, imposed);
+  EXPECT_LT(state.record.holds.momentum_residual.at(0), 0);
+  EXPECT_DOUBLE_EQ(plane_means(state.fluid.velocity.x, scene.grid).front(), 0);   // deep in the bed
+}
+
+TEST(FluidRungs, RefuseWhatTheyCannotCarry) {
+  const Scene good = sheared(FluidRung::column, 0.1, fixed_bed(0), in_bed);
+  const auto refused = [](Scene scene, const char* key) {
+    const auto problems = problems_of(scene);
+    return std::ranges::any_of(problems, [&](const auto& p) {
+      return p.parameter == key && p.message.starts_with("models.fluid = \"") && !p.hint.empty();
+    });
+  };
+  EXPECT_TRUE(
+      std::ranges::none_of(problems_of(good), [](const auto& p) { return p.message.starts_with("models.fluid"); }));
+  for (const int c : {0, 1}) {
+    Scene walled = good;
+    walled.bed.sides[c] = walled.grid.sides[c] = Side::wall;
+    EXPECT_TRUE(refused(walled, c == 0 ? "box.x" : "box.y"));
+  }
+  Scene bottomless = good;
+  bottomless.bed.sides[2] = bottomless.grid.sides[2] = Side::periodic;
+  EXPECT_TRUE(refused(bottomless, "box.z"));
+  Scene vortices = good;
+  vortices.fluid_start = FluidStart::taylor_green;
+  EXPECT_TRUE(refused(vortices, "fluid.start"));
+  Scene smoothed = good;
+  smoothed.smoothing.z = d;
+  EXPECT_TRUE(refused(smoothed, "models.smoothing"));
+  for (const auto term : {&Terms::added_mass, &Terms::self_disturbance, &Terms::viscous_torque, &Terms::wall_forces}) {
+    Scene more = good;
+    more.terms.*term = true;
+    EXPECT_TRUE(refused(more, "models.terms"));
+  }
+  Scene model_b = good;
+  model_b.terms.pressure_gradient = model_b.terms.viscous_stress = false;
+  EXPECT_TRUE(refused(model_b, "models.terms"));
+  model_b.fluid = FluidRung::profile;
+  EXPECT_FALSE(refused(model_b, "models.terms"));
+  model_b.developed = false;
+  EXPECT_TRUE(refused(model_b, "drive.start"));
+}
+
+}   // namespace
+}   // namespace bedload::test
