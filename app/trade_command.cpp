@@ -32,6 +32,7 @@ std::vector<std::string> within(double core_hours, const std::vector<Case>& case
 int trade_command(RunOptionsOfCommand options, std::optional<double> core_hours) {
   const auto place = find_study(options.study.study, options.study.out);
   const auto study = read_study(place.file);
+  refuse_without_trades(study);
   const auto cases = unfold(study);
   if (core_hours) options.study.cases = within(*core_hours, cases);
   if (const int code = run_command(options); code != 0) return code;

@@ -176,10 +176,14 @@ void add_case(const Database& database, const Case& one, Packings& packings, Tra
 bool PairedDifference::seen() const { return std::abs(mean) > uncertainty; }
 double PairedDifference::size() const { return std::fmax(std::abs(mean), uncertainty); }
 
-Trade measured_trade(const Database& database, const Study& study, const std::vector<Case>& cases) {
+void refuse_without_trades(const Study& study) {
   if (study.trades.empty())
     throw Error(ErrorKind::study_invalid, fmt::format("{} has no [[trade]]", study.file.string()),
                 "write [[trade]] and below it what is to be changed, for example box.cell.z = \"1 d\"");
+}
+
+Trade measured_trade(const Database& database, const Study& study, const std::vector<Case>& cases) {
+  refuse_without_trades(study);
   Trade trade{.study = study.name, .settings = {{.name = "finest"}}};
   std::vector<Packings> outcomes(1);
   for (const Case& one : cases) {

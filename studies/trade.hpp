@@ -40,6 +40,9 @@ struct Trade {
   std::vector<TradeSetting> settings;                   // the finest first, then in the order of the study file
 };
 
+/// Throws Error study_invalid for a study without [[trade]].
+void refuse_without_trades(const Study&);
+
 /// From the finished cases of the study's database. Throws Error not_found where the finest setting has no result yet, and
 /// study_invalid for a study without [[trade]].
 Trade measured_trade(const Database&, const Study&, const std::vector<Case>&);

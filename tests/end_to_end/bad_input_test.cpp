@@ -165,10 +165,18 @@ TEST_F(BadInput, UnknownCommandAndOptionAndLaterCommand) {
   EXPECT_EQ(bedload(here(), {}).code, 2);
 }
 
+TEST_F(BadInput, TradeOfAStudyThatVariesNothing) {
+  std::ofstream(here() / "tiny.toml") << tiny_study;
+  const auto refused = bedload(here(), {"trade", "tiny.toml"});
+  EXPECT_EQ(refused.code, 65) << refused.err;
+  EXPECT_TRUE(says(refused.err, "tiny.toml has no [[trade]]"));
+  EXPECT_FALSE(std::filesystem::exists(here() / "tiny")) << "refused before anything runs";
+}
+
 TEST_F(BadInput, CommandOfALaterVersion) {
   std::ofstream(here() / "tiny.toml") << tiny_study;
   for (const std::vector<std::string>& words :
-       std::vector<std::vector<std::string>>{{"prune"}, {"doctor"}, {"trade"}, {"plan", "--probe"}}) {
+       std::vector<std::vector<std::string>>{{"prune"}, {"doctor"}, {"plan", "--probe"}}) {
     auto arguments = words;
     arguments.push_back("tiny.toml");
     const auto later = bedload(here(), arguments);

@@ -43,7 +43,7 @@ TEST(Examples, ThresholdsOfLaminarBedsAreInRange) {
   };
   for (const auto& [name, cases, picked] :
        {Expected{"laminar-threshold", "20 cases (20 new", "d0.467mm-rho1500-area-s1 new 1200"},
-        Expected{"trade-laminar", "32 cases (32 new", "trade-laminar-dem0.45R-s2 new 300"},
+        Expected{"trade-laminar", "38 cases (38 new", "trade-laminar-dem0.45R-s2 new 300"},
         Expected{"slope-threshold", "16 cases (16 new", "slope8deg 0.000370766 m 2000 kg/m3 1e-05 m2/s"}}) {
     const auto plan = plan_of(name);
     EXPECT_EQ(plan.code, 0) << plan.err;

@@ -48,7 +48,7 @@ class ReportTest : public ::testing::Test {
       database_.execute(std::string("INSERT INTO ramp_points VALUES ('c',") + row +
                         ",0,0,0.1,0,0.003,0.003,0,0.0005,0.4,5,5,0,'ramp','none')");
     for (int z = 0; z < 4; ++z)
-      database_.execute("INSERT INTO bed_statistics VALUES ('c',1,?,0.5,0.1,0.05)", {z * 1e-3});
+      database_.execute("INSERT INTO bed_statistics VALUES ('c',1,?,0.5,0.1,0.05,0)", {z * 1e-3});
     database_.execute("INSERT INTO models VALUES ('c',0,'drag',1,1,0.5,'a < b & c')");
   }
   std::string page() const { return report_html(database_, {"my <study>", "bedload run my.toml", "", {}}); }
