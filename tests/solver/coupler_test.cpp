@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "tests/support/scenes.hpp"
 
@@ -82,16 +84,90 @@ TEST(FluidStep, ShortensTheDemStepBelowOne) {
 TEST(FluidStep, OfFluidAloneKnowsNothingOfGrainsThatWereThereBefore) {
   LoneGrain with(1e-6, channel);
   with.state.search.lid_speed = 0.05;
+  const double longest = with.scene.steps.fluid_interval;
+  const auto without_grains = [&scene = with.scene](State state) {
+    state.grains = {}, state.contacts = {};
+    state.fluid.velocity.x[scene.grid.index(2, 2, 2)] += 0.01;   // beside where the grain was: work for the pressure
+    return state;
+  };
   Coupler used(with.scene);
-  for (int n = 0; n < 3; ++n) used.step(with.state, with.scene.steps.fluid_interval);
-  State alone = with.state;
-  alone.grains = {}, alone.contacts = {};
-  State fresh = alone;
-  Coupler never_used(with.scene);
+  for (int again = 0; again < 2; ++again) {   // the grain comes, and is gone
+    for (int n = 0; n < 3; ++n) used.step(with.state, longest);
+    State alone = without_grains(with.state), fresh = alone;
+    Coupler never_used(with.scene);
+    for (int n = 0; n < 3; ++n) {
+      const StepHealth health = used.step(alone, longest);
+      if (n == 0) {
+        EXPECT_GT(health.pressure_iterations, 0);
+      }
+      never_used.step(fresh, longest);
+      EXPECT_EQ(state_digest(alone), state_digest(fresh)) << again << " " << n;
+      EXPECT_EQ(used.drag_on_grains().size(), 0u);
+    }
+  }
+}
+
+TEST(FluidStep, OfViscousFluidAloneDecaysByBackwardEuler) {
+  // A wave of shear is an eigenvector of the Laplacian on the grid, of eigenvalue -(2 - 2 cos(2 pi/n))/h^2.
+  constexpr int n = 8;
+  constexpr double h = 2 * d, amplitude = 1e-3;
+  Scene scene = fluid_scene({4, 4, n}, {h, h, h}, periodic_box, 1e-6);
+  const double viscosity = scene.bed.fluid.viscosity = 0.5 * h * h / scene.steps.fluid_interval;
+  State state = state_of(scene, {}, false);
+  const auto wave = [](int k) { return std::sin(2 * std::numbers::pi * k / n); };
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (int k = 0; k < n; ++k) state.fluid.velocity.x[scene.grid.index(i, j, k)] = amplitude * wave(k);
+  const double eigenvalue = (2 - 2 * std::cos(2 * std::numbers::pi / n)) / (h * h);
+  double left = amplitude;
+  Coupler coupler(scene);
+  for (int step = 0; step < 4; ++step) {
+    const StepHealth health = coupler.step(state, scene.steps.fluid_interval);
+    ASSERT_GT(viscosity * health.dt, h * h / 12);   // viscous stress is implicit
+    left /= 1 + viscosity * health.dt * eigenvalue;
+    for (int k = 0; k < n; ++k)
+      EXPECT_NEAR(state.fluid.velocity.x[scene.grid.index(1, 2, k)], left * wave(k), 1e-12 * amplitude)
+          << step << " " << k;
+  }
+}
+
+TEST(FluidStep, OfFluidAloneSaysWhatDivergenceItStartsWith) {
+  Scene scene = fluid_scene({4, 4, 4}, {2 * d, 2 * d, 2 * d}, channel, 1e-6);
+  State state = state_of(scene, {}, false);
+  state.fluid.velocity.x[scene.grid.index(2, 1, 1)] = 1e-3;
+  Coupler coupler(scene);
+  const StepHealth first = coupler.step(state, scene.steps.fluid_interval);
+  EXPECT_DOUBLE_EQ(first.divergence_left, 1e-3 / (2 * d) * first.dt);
+  EXPECT_LT(coupler.step(state, scene.steps.fluid_interval).divergence_left, 1e-6 * first.divergence_left);
+}
+
+TEST(FluidStep, OfFluidAloneLetsThroughWhatIsAskedFor) {
+  Scene scene = fluid_scene({4, 4, 4}, {2 * d, 2 * d, 2 * d}, periodic_box, 1e-6);
+  scene.drive.kind = FlowRamp::Kind::through_flow;
+  State state = state_of(scene, {}, false);
+  Coupler coupler(scene);
+  for (const double asked : {0.01, 0.03, 0.02}) {
+    state.search.through_flow = asked;
+    coupler.step(state, scene.steps.fluid_interval);
+    EXPECT_NEAR(state.fluid.velocity.z[scene.grid.index(1, 2, 3)], asked, 1e-14);
+  }
+}
+
+TEST(FluidStep, OfTurbulentFluidAloneLosesTheMomentumThatItsWallsTake) {
+  Scene scene = fluid_scene({4, 4, 8}, {2 * d, 2 * d, 2 * d}, channel, 1e-6);
+  scene.terms.turbulence = true;
+  State state = state_of(scene, {}, false);
+  state.search.lid_speed = 0.5;
+  Coupler coupler(scene);
   for (int n = 0; n < 3; ++n) {
-    used.step(alone, with.scene.steps.fluid_interval), never_used.step(fresh, with.scene.steps.fluid_interval);
-    EXPECT_EQ(state_digest(alone), state_digest(fresh)) << n;
-    EXPECT_EQ(used.drag_on_grains().size(), 0u);
+    const Vec3 before = fluid_momentum(scene, state);
+    const StepHealth health = coupler.step(state, scene.steps.fluid_interval);
+    const Vec3 on_walls = coupler.books().on_bottom + coupler.books().on_lid;
+    const Vec3 laminar = -scene.bed.fluid.density * scene.bed.fluid.viscosity * 0.5 / d * Vec3{8 * d * 8 * d, 0, 0};
+    if (n == 0) {
+      EXPECT_LT(on_walls.x, 1.1 * laminar.x);   // on the lid, by the law of the wall
+    }
+    EXPECT_NEAR((fluid_momentum(scene, state) - before).x, -health.dt * on_walls.x, 1e-12 * health.dt * norm(on_walls));
   }
 }
 
