@@ -171,6 +171,21 @@ TEST(FluidStep, OfTurbulentFluidAloneLosesTheMomentumThatItsWallsTake) {
   }
 }
 
+TEST(FluidStep, OfViscousFluidAloneLosesTheMomentumThatItsWallsTake) {
+  Scene scene = fluid_scene({4, 4, 8}, {2 * d, 2 * d, 2 * d}, channel, 1e-6);
+  scene.bed.fluid.viscosity = 0.5 * 4 * d * d / scene.steps.fluid_interval;
+  State state = state_of(scene, {}, false);
+  state.search.lid_speed = 0.01;
+  Coupler coupler(scene);
+  for (int n = 0; n < 3; ++n) {
+    const Vec3 before = fluid_momentum(scene, state);
+    const StepHealth health = coupler.step(state, scene.steps.fluid_interval);
+    ASSERT_GT(scene.bed.fluid.viscosity * health.dt, 4 * d * d / 12);   // viscous stress is implicit
+    const Vec3 on_walls = coupler.books().on_bottom + coupler.books().on_lid;
+    EXPECT_NEAR((fluid_momentum(scene, state) - before).x, -health.dt * on_walls.x, 1e-12 * health.dt * norm(on_walls));
+  }
+}
+
 TEST(FluidStep, FailsWhenAGrainsCentrePassesAWall) {
   LoneGrain grain(1e-9, channel);
   grain.state.grains.position[0].z = 0.02 * d;
