@@ -89,6 +89,23 @@ TEST(ExplicitForces, MagnusTakesTheSpinRelativeToTheFluids) {
   EXPECT_LT(channel.flow.force[0].z, 0);   // lags the flow: moves along -x through it, with topspin
 }
 
+TEST(ExplicitForces, AreThoseOfAGrainWhateverItsId) {
+  // Six: four at a time, and two. Near the wall and far from it, each in cells of its own.
+  std::vector<Vec3> places;
+  for (int p = 0; p < 6; ++p)
+    places.push_back({(2 + 4 * (p % 3)) * h, (3 + 5 * (p / 3)) * h, p % 2 == 0 ? 0.5 * d : 6 * h});
+  Channel one_way(places), other_way({places.rbegin(), places.rend()});
+  Terms terms;
+  terms.shear_lift = terms.magnus = terms.wall_forces = true;
+  for (std::size_t p = 0; p < 6; ++p)
+    one_way.grains.spin[p] = other_way.grains.spin[5 - p] = {0, -50.0 - 10 * double(p), 3};
+  one_way.add(terms), other_way.add(terms);
+  for (std::size_t p = 0; p < 6; ++p) {
+    EXPECT_EQ(one_way.flow.force[p], other_way.flow.force[5 - p]) << p;
+    EXPECT_NE(one_way.flow.force[p], Vec3{});
+  }
+}
+
 TEST(ExplicitForces, ATouchingGrainAtRestGetsWallDragAndWallLift) {
   const Vec3 touching{5 * h, 5 * h, 0.5 * d};
   Channel channel({touching});

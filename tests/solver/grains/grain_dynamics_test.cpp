@@ -67,6 +67,23 @@ TEST(GrainDynamics, CollideWithTheirAddedMassAndTheRestitutionAskedFor) {
   EXPECT_NEAR(m1 * grains.velocity[0].x + m2 * grains.velocity[1].x, m1 * 0.1, 1e-15);
 }
 
+TEST(GrainDynamics, MeetWithTheAddedMassOfTheCallWhenTheListWasMadeWithout) {
+  const BedScene scene = grain_scene(Side::wall, Side::wall);
+  Grains grains;
+  add_grain(grains, {19.5e-3, 20e-3, 20e-3}, {0.01, 0, 0}), add_grain(grains, {20.499e-3, 20e-3, 20e-3});
+  const std::vector<Vec3> push(2);
+  GrainDynamics kept(scene), made_anew(scene);
+  ContactHistory contacts;
+  kept.advance(grains, contacts, {.push = push, .added_mass = std::vector<double>{0, 0}}, scene.dem_step, 1, 0);
+  Grains others = grains;
+  ContactHistory their_contacts = contacts;
+  ASSERT_EQ(contacts.size(), 1u);
+  const std::vector<double> added{0.3 * mass_of(grains, 0), 1.1 * mass_of(grains, 0)};
+  kept.advance(grains, contacts, {.push = push, .added_mass = added}, scene.dem_step, 1, 0);
+  made_anew.advance(others, their_contacts, {.push = push, .added_mass = added}, scene.dem_step, 1, 0);
+  EXPECT_EQ(grains.velocity, others.velocity);
+}
+
 TEST(GrainDynamics, BookTheMeanTorqueOfContacts) {
   const BedScene scene = grain_scene(Side::periodic, Side::wall);
   Grains grains;
@@ -124,6 +141,23 @@ TEST(GrainDynamics, TellTheDeepestOverlapPerDiameterOfTheSmallerGrain) {
   ContactHistory contacts;
   GrainDynamics dynamics(scene);
   EXPECT_NEAR(coast(dynamics, grains, contacts, scene.dem_step, 1).deepest_overlap, 15e-6 / 0.4e-3, 1e-6);
+}
+
+TEST(GrainDynamics, TellTheDeepestOverlapWhicheverPairHasIt) {
+  const BedScene scene = grain_scene(Side::wall, Side::wall);
+  constexpr int pairs = 21;
+  for (int deepest = 0; deepest < pairs; ++deepest) {
+    Grains grains;
+    for (int k = 0; k < pairs; ++k) {
+      const double y = 1e-3 + 1.5e-3 * k, overlap = k == deepest ? 20e-6 : 10e-6;
+      add_grain(grains, {10e-3, y, 10e-3}, {}, 1e-3), add_grain(grains, {11e-3 - overlap, y, 10e-3}, {}, 1e-3);
+    }
+    ContactHistory contacts;
+    GrainDynamics dynamics(scene);
+    const GrainHealth health = coast(dynamics, grains, contacts, 1e-3 * scene.dem_step, 1);
+    EXPECT_EQ(health.contacts, pairs);
+    EXPECT_NEAR(health.deepest_overlap, 0.02, 1e-6) << deepest;
+  }
 }
 
 TEST(GrainDynamics, NeverMoveAFixedGrain) {
