@@ -8,7 +8,7 @@
 namespace bedload {
 
 /// Inline SVG, `width` pixels wide: x to the right, z up. Shows the grains of the front five diameters (all of a narrower
-/// box), nearer ones over farther and paler ones.
+/// box), farther ones through haze.
 std::string bed_picture(const BedView&, double width);
 
 /// The colours of the picture, as a bar with its scale: speed/sqrt((s-1) g d), four decades.

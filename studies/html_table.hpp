@@ -27,6 +27,9 @@ inline std::string header_row(const std::vector<std::string>& names, std::size_t
   return row + "</tr>\n";
 }
 
-inline std::string html_table(std::string_view rows) { return fmt::format("<table>{}</table>\n", rows); }
+/// What is wider than the page scrolls within it.
+inline std::string scrolling(std::string_view wide) { return fmt::format("<div class='scroll'>{}</div>\n", wide); }
+
+inline std::string html_table(std::string_view rows) { return scrolling(fmt::format("<table>{}</table>", rows)); }
 
 }   // namespace bedload

@@ -15,6 +15,7 @@
 #include "studies/report_figures.hpp"
 #include "studies/report_style.hpp"
 #include "studies/svg_plot.hpp"
+#include "studies/theme.hpp"
 
 namespace bedload {
 
@@ -50,8 +51,8 @@ std::string threshold_section(const std::vector<ThresholdPoint>& curve, const st
                               std::size_t finished) {
   const auto none = finished == 0 ? "<p>No case has finished yet.</p>" : "<p>No finished case has a ramp.</p>";
   const std::string body =
-      curve.empty() ? threshold_figure(curve) + none
-                    : threshold_figure(curve) + curve_table(curve) + "<p class='caption'>" +
+      curve.empty() ? scrolling(threshold_figure(curve)) + none
+                    : scrolling(threshold_figure(curve)) + curve_table(curve) + "<p class='caption'>" +
                           escaped(onset_in_words(curve) + "; systematic: " + budget_in_words(budget)) + "</p>\n";
   return section(
       "Threshold of motion",
@@ -70,7 +71,7 @@ std::string for_each_case(const std::vector<FinishedCase>& cases, Figure&& figur
   std::string all;
   for (const FinishedCase& of : cases) {
     const std::string drawn = figure(of);
-    if (!drawn.empty()) all += fmt::format("<div><h3>{}</h3>{}</div>\n", escaped(of.label), drawn);
+    if (!drawn.empty()) all += fmt::format("<div><h3>{}</h3>{}</div>\n", escaped(of.label), scrolling(drawn));
   }
   return all.empty() ? all : "<div class='row'>" + all + "</div>\n";
 }
@@ -95,10 +96,10 @@ std::string bed_section(const std::vector<BedView>& beds) {
   std::string pictures;
   for (const BedView& bed : beds)
     pictures += fmt::format("<div><h3>{} <span class='moment'>{}</span></h3>{}</div>\n", escaped(bed.label),
-                            escaped(bed.moment), bed_picture(bed, 468));
-  const std::string body = speed_scale_bar() + "<div class='row'>" + pictures + "</div>\n";
+                            escaped(bed.moment), scrolling(bed_picture(bed, 468)));
+  const std::string body = scrolling(speed_scale_bar()) + "<div class='row'>" + pictures + "</div>\n";
   return section("The bed",
-                 "Side view of the newest checkpoint: the grains of the front five diameters, farther ones paler, "
+                 "Side view of the newest checkpoint: the grains of the front five diameters, farther ones through haze, "
                  "coloured by speed.",
                  body);
 }
@@ -108,8 +109,10 @@ std::string profile_section(const Database& database, const std::vector<Finished
                  "Means over x and y: porosity of the settled bed and at the end of the ramp; velocity of fluid and "
                  "grains at the end of the ramp.",
                  for_each_case(cases, [&](const FinishedCase& of) {
-                   const std::string drawn = porosity_figure(database, of) + velocity_figure(database, of);
-                   return drawn.empty() ? drawn : "<div class='row'>" + drawn + "</div>";
+                   const std::string porosity = porosity_figure(database, of), velocity = velocity_figure(database, of);
+                   return porosity.empty() && velocity.empty()
+                              ? std::string()
+                              : "<div class='row'>" + scrolling(porosity) + scrolling(velocity) + "</div>";
                  }));
 }
 
@@ -235,9 +238,10 @@ std::string report_html(const Database& database, const ReportRequest& request) 
              "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'><meta name='viewport' "
              "content='width=device-width'>"
              "<title>{0} – "
-             "bedload</title><style>{1}</style></head>\n<body><main>\n<header><h1>{0}</h1><p>{2}{3}{4}</p></header>\n",
-             title, report_style, summary(curve, cases.size()), request.written.empty() ? "" : " · ",
-             escaped(request.written)) +
+             "bedload</title><style>{1}{5}</style></head>\n<body><main>\n<header><h1>{0}</h1><p>{2}{3}{4}</p></"
+             "header>\n",
+             title, theme_style(), summary(curve, cases.size()), request.written.empty() ? "" : " · ",
+             escaped(request.written), report_style) +
          threshold_section(curve, error_budget(database), cases.size()) + ramp_section(database, cases) +
          bed_section(request.beds) + history_section(database, cases) + profile_section(database, cases) +
          model_section(database) + health_section(database) + provenance_section(database, request) +

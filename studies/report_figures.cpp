@@ -17,15 +17,16 @@ namespace bedload {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> palette{"#0072b2", "#d55e00", "#009e73", "#aa4499", "#b8860b", "#333333"};
+constexpr std::array<std::string_view, 6> palette{"var(--blue)",   "var(--red)",   "var(--green)",
+                                                  "var(--purple)", "var(--ochre)", "var(--text)"};
 constexpr std::array<Marker, 4> shapes{Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
-constexpr std::array<Stroke, 6> published_strokes{{{"#5b6770", 1.8, ""},
-                                                   {"#5b6770", 1.6, "7 3"},
-                                                   {"#5b6770", 1.6, "2 3"},
-                                                   {"#a3adb5", 1.8, ""},
-                                                   {"#a3adb5", 1.6, "7 3"},
-                                                   {"#a3adb5", 1.6, "2 3"}}};
-constexpr std::string_view ours = "#0072b2", other = "#d55e00", still = "#9aa5ad", band = "#c9a227";
+constexpr std::array<Stroke, 6> published_strokes{{{"var(--known)", 1.8, ""},
+                                                   {"var(--known)", 1.6, "7 3"},
+                                                   {"var(--known)", 1.6, "2 3"},
+                                                   {"var(--known-pale)", 1.8, ""},
+                                                   {"var(--known-pale)", 1.6, "7 3"},
+                                                   {"var(--known-pale)", 1.6, "2 3"}}};
+constexpr std::string_view ours = "var(--blue)", other = "var(--red)", still = "var(--still)", band = "var(--band)";
 constexpr double small_width = 472, small_height = 300;
 
 /// Place of a value among the distinct values, in rising order; the palettes repeat after their last.
@@ -157,7 +158,7 @@ std::string ramp_figure(const Database& database, const FinishedCase& of) {
               onset.shields > std::sqrt(low * high) * 1.2 ? "end" : "start");
   }
   const bool by_flux = onset.activity == "event_flux";
-  if (by_flux) plot.line({{low / 1.12, onset.value}, {high * 1.12, onset.value}}, {"#555", 1.2, "5 4"});
+  if (by_flux) plot.line({{low / 1.12, onset.value}, {high * 1.12, onset.value}}, {"var(--dash)", 1.2, "5 4"});
   for (const auto& row : holds.rows) {
     const double shields = number_in(row[0]), flux = number_in(row[1]), error = number_in(row[2]);
     if (flux > least) plot.vertical_bar(shields, std::max(least, flux - error), flux + error, ours);
@@ -212,7 +213,7 @@ std::string porosity_figure(const Database& database, const FinishedCase& of) {
                {"height z/d  [–]", 0, std::ceil(top_of(after))});
   if (!before.porosity.empty()) plot.line(before.porosity, {still, 1.8, ""});
   plot.line(after.porosity, {ours, 1.8, ""});
-  plot.note({0.24, 0.93 * top_of(after)}, "settled", "#77838c");
+  plot.note({0.24, 0.93 * top_of(after)}, "settled", "var(--still)");
   plot.note({0.24, 0.86 * top_of(after)}, fmt::format("after {}", hold_in_words(last)), ours);
   return plot.svg();
 }
@@ -243,7 +244,7 @@ std::string history_figure(const Database& database, const FinishedCase& of) {
                {"moving grains per surface grain  [–]", least, most, true});
   for (std::size_t k = 0; k < holds.rows.size(); ++k) {
     const auto& row = holds.rows[k];
-    if (k % 2 == 1) plot.shade({number_in(row[0]), least}, {number_in(row[1]), most}, "#5b6770", 0.1);
+    if (k % 2 == 1) plot.shade({number_in(row[0]), least}, {number_in(row[1]), most}, "var(--known)", 0.12);
   }
   std::vector<PlotPoint> points;
   for (const auto& row : samples.rows) points.push_back({number_in(row[0]), std::max(least / 2, number_in(row[1]))});

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "studies/theme.hpp"
+
 namespace bedload {
 
 std::string escaped(std::string_view text) {
@@ -25,6 +27,7 @@ namespace {
 
 constexpr double left = 70, right = 14, top = 10, bottom = 46;   // margins [px]
 constexpr double legend_step = 18;
+constexpr double least_scale = 0.85;   // a page narrower than that scrolls: letters of 10 px can still be read
 
 double position(const PlotAxis& axis, double value) {
   if (!axis.logarithmic) return (value - axis.low) / (axis.high - axis.low);
@@ -74,7 +77,8 @@ std::string tick_text(const PlotAxis& axis, double value) {
 std::string dashes(std::string_view dash) { return dash.empty() ? "" : fmt::format(" stroke-dasharray='{}'", dash); }
 
 std::string marker_shape(double x, double y, Marker shape, std::string_view colour, bool filled) {
-  const std::string style = fmt::format("fill='{}' stroke='{}' stroke-width='1.8'", filled ? colour : "#fff", colour);
+  const std::string style =
+      fmt::format("fill='{}' stroke='{}' stroke-width='1.8'", filled ? colour : "var(--paper)", colour);
   switch (shape) {
     case Marker::circle: return fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='4.6' {}", x, y, style);
     case Marker::square:
@@ -203,22 +207,25 @@ std::string SvgPlot::axes() const {
 
 std::string SvgPlot::svg() const {
   return fmt::format(
-      "<svg class='plot' viewBox='0 0 {0:.0f} {1:.0f}' width='{0:.0f}' height='{1:.0f}' role='img'>"
+      "<svg class='plot' viewBox='0 0 {0:.0f} {1:.0f}' width='{0:.0f}' height='{1:.0f}' "
+      "style='min-width:{11:.0f}px' role='img'>"
       "<g transform='translate({2} {3})'>{4}<svg width='{5:.1f}' height='{6:.1f}' overflow='hidden'>{7}</svg>"
       "<rect width='{5:.1f}' height='{6:.1f}' class='frame'/>{8}<g transform='translate({9:.1f} 0)'>{10}</g></g></svg>",
-      width_, height_, left, top, axes(), inner_width_, inner_height_, areas_, marks_, inner_width_ + 22, legend_);
+      width_, height_, left, top, axes(), inner_width_, inner_height_, areas_, marks_, inner_width_ + 22, legend_,
+      least_scale * width_);
 }
 
 std::string standing_alone(const std::string& svg) {
   constexpr std::string_view style =
-      "<style>svg{font:12px 'Liberation Sans','DejaVu Sans',sans-serif;fill:#333;background:#fff}"
-      ".grid{stroke:#dfe4e7}.fine{stroke:#eff2f3}.frame{fill:none;stroke:#7d8890}.axis{font-size:13px;fill:#22292e}"
-      ".heading{font-weight:600;fill:#22292e}</style>";
+      "<style>svg{font:12px 'Liberation Sans','DejaVu Sans',sans-serif;fill:var(--text);background:var(--paper)}"
+      ".grid{stroke:var(--grid)}.fine{stroke:var(--fine)}.frame{fill:none;stroke:var(--frame)}"
+      ".axis{font-size:13px;fill:var(--ink)}.heading{font-weight:600;fill:var(--ink)}</style>";
   constexpr std::string_view opening = "<svg ";
   const auto end = svg.find('>');
   if (!svg.starts_with(opening) || end == svg.npos) return svg;
-  return fmt::format("<svg xmlns='http://www.w3.org/2000/svg' {}{}{}\n",
-                     svg.substr(opening.size(), end + 1 - opening.size()), style, svg.substr(end + 1));
+  return in_light_colours(fmt::format("<svg xmlns='http://www.w3.org/2000/svg' {}{}{}\n",
+                                      svg.substr(opening.size(), end + 1 - opening.size()), style,
+                                      svg.substr(end + 1)));
 }
 
 }   // namespace bedload

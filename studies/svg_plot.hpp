@@ -10,7 +10,7 @@ namespace bedload {
 /// Text safe between tags and in attributes.
 std::string escaped(std::string_view text);
 
-/// A picture in a report takes the page's style; alone in its file it brings its own.
+/// A picture in a report takes the page's style; alone in its file it brings its own, light.
 std::string standing_alone(const std::string& svg);
 
 struct PlotAxis {
@@ -20,7 +20,7 @@ struct PlotAxis {
 };
 
 struct Stroke {
-  std::string_view colour = "#333";
+  std::string_view colour = "var(--text)";
   double width = 1.5;      // [px]
   std::string_view dash;   // of SVG: "4 3"; empty = solid
 };

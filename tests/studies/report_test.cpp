@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <regex>
+#include <set>
 
 #include "studies/bed_picture.hpp"
 #include "studies/results.hpp"
@@ -79,6 +80,32 @@ TEST_F(ReportTest, IsWellFormedAndEscapesWhatOthersWrote) {
   EXPECT_FALSE(std::regex_search(html, std::regex("\\bnan\\b")));
 }
 
+// A name without a colour is black on any page; a colour without a name cannot follow the page into the dark.
+TEST_F(ReportTest, TakesEveryColourFromTheTheme) {
+  add_case();
+  add_point("a", "bracketed", 0.17, 0.15, 0.18);
+  add_point("b", "censored_above", Value(), 0.44, Value());
+  const std::string html = page();
+  const std::regex used("var\\((--[a-z-]+)\\)");
+  std::set<std::string> names;
+  for (auto at = std::sregex_iterator(html.begin(), html.end(), used); at != std::sregex_iterator(); ++at)
+    names.insert((*at)[1]);
+  EXPECT_GT(names.size(), 10u);
+  for (const std::string& name : names)   // once for light, once for dark
+    EXPECT_EQ(occurrences(html, " " + name + ": #"), 2u) << name;
+  EXPECT_FALSE(std::regex_search(html.substr(html.find("</style>")), std::regex("['\"]#[0-9a-f]{3,8}['\"]")));
+  EXPECT_NE(html.find("@media screen and (prefers-color-scheme: dark)"), std::string::npos);   // paper stays light
+}
+
+TEST_F(ReportTest, LetsWhatIsWideScrollWithinThePage) {
+  add_case();
+  add_point("a", "bracketed", 0.17, 0.15, 0.18);
+  const std::string html = page();
+  EXPECT_EQ(occurrences(html, "<table>"), occurrences(html, "<div class='scroll'><table>"));
+  EXPECT_EQ(occurrences(html, "<svg class='plot'"), occurrences(html, "<div class='scroll'><svg class='plot'"));
+  EXPECT_GT(occurrences(html, "<svg class='plot'"), 3u);
+}
+
 TEST_F(ReportTest, ShowsValuesFilledAndOneSidedBoundsOpen) {
   add_point("a", "bracketed", 0.17, 0.15, 0.18);
   add_point("b", "censored_above", Value(), 0.44, Value());
@@ -88,7 +115,7 @@ TEST_F(ReportTest, ShowsValuesFilledAndOneSidedBoundsOpen) {
             std::string::npos);
   const std::size_t bound = html.find("b: theta_c &gt; 0.4400");
   ASSERT_NE(bound, std::string::npos);
-  EXPECT_NE(html.substr(bound - 140, 140).find("fill='#fff'"), std::string::npos);
+  EXPECT_NE(html.substr(bound - 140, 140).find("fill='var(--paper)'"), std::string::npos);
 }
 
 TEST_F(ReportTest, SaysBoundsThatAreThereAndNoOthers) {
@@ -171,6 +198,23 @@ TEST(BedPicture, ColoursAMovingGrainUnlikeAStillOne) {
   BedView moving = two_grains();
   moving.grains.velocity[0] = {0.5, 0, 0};
   EXPECT_NE(bed_picture(moving, 100), bed_picture(two_grains(), 100));
+}
+
+TEST(SvgPlot, StandsAloneWithoutThePagesColours) {
+  SvgPlot plot(184, 156, {"x", 1, 100, true}, {"y", 0, 2, false});
+  plot.marker({10, 0.5}, Marker::circle, "var(--blue)", false, "here");
+  const std::string file = standing_alone(plot.svg());
+  EXPECT_NE(file.find("fill='#ffffff' stroke='#0072b2'"), std::string::npos);
+  EXPECT_EQ(file.find("var("), std::string::npos);
+}
+
+TEST(BedPicture, PutsAHazeBetweenNearAndFarGrains) {
+  BedView view = two_grains();
+  view.grains.position[1].y = 4;
+  const std::string both = bed_picture(view, 100);
+  const auto far = both.find("cx='50.0'"), near = both.find("cx='40.0'");
+  ASSERT_LT(far, near);
+  EXPECT_EQ(occurrences(both.substr(far, near - far), "opacity="), 5u);   // of 8 in five diameters
 }
 
 TEST(SvgPlot, PutsDataWhereItsAxesSay) {
