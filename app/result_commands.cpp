@@ -10,6 +10,7 @@
 #include "base/durable_file.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "checkpoint/checkpoint.hpp"
 #include "checkpoint/checkpoint_series.hpp"
 #include "scheduler/attempt.hpp"
 #include "solver/dimensionless.hpp"
@@ -25,41 +26,61 @@ namespace bedload {
 
 namespace {
 
-constexpr std::size_t most_pictures = 4;
+constexpr std::size_t most_pictured = 4;
 
-BedView view_of(const CaseEntry& entry, const CaseDirectory& one, State state) {
+BedView view_of(const CaseDirectory& one, State state, std::string moment) {
   const auto& bed = one.scene.bed;
   const double weight = reduced_gravity(bed.grains.density / bed.fluid.density, norm(bed.gravity));
-  return {.label = entry.label,
-          .moment = fmt::format("after hold {}, theta = {:.3g}", state.record.holds.hold.size(), state.search.shields),
+  return {.moment = std::move(moment),
           .grains = std::move(state.grains),
           .length = bed.length,
           .diameter = bed.grains.diameter,
           .speed_scale = std::sqrt(weight * bed.grains.diameter)};
 }
 
-/// A case as it stands in its newest whole checkpoint; nothing if it has none.
-std::optional<BedView> view_in(const std::filesystem::path& directory, const CaseEntry& entry) try {
-  if (!std::filesystem::exists(directory / "case.toml")) return {};
+/// The settled bed that the holds of a case began with; nothing if it is not there yet.
+std::optional<BedView> view_at_rest(const std::filesystem::path& directory, const CaseDirectory& one) {
+  const bool has_history = one.scene.shear.time > 0;
+  const auto file = directory / (has_history ? "sheared.h5" : "bed.h5");
+  if (!std::filesystem::exists(file)) return {};
+  return view_of(one, read_checkpoint(file), has_history ? "at rest, after its shear" : "at rest");
+}
+
+/// A case as it stands in its newest whole checkpoint; nothing if it has none. Error corrupt if all are broken.
+std::optional<BedView> newest_view(const std::filesystem::path& directory, const CaseDirectory& one) {
   bool broken = false;
   auto state = newest_whole(directory, [&](const std::string& line) {
     broken = true;
     log_warning(line);
   });
-  if (!state && broken) log_warning(fmt::format("the report has no picture of {}", entry.label));
+  if (!state && broken) throw Error(ErrorKind::corrupt, "none of its checkpoints is whole");
   if (!state || state->grains.size() == 0) return {};
-  return view_of(entry, read_case_directory(directory), std::move(*state));
-} catch (const Error& error) {   // the rest of the report rests on the database
-  log_warning(fmt::format("the report has no picture of {}: {}", entry.label, error.what()));
-  return {};
+  auto moment = fmt::format("after hold {}, theta = {:.3g}", state->record.holds.hold.size(), state->search.shields);
+  return view_of(one, std::move(*state), std::move(moment));
 }
 
-/// The first cases that have a checkpoint.
-std::vector<BedView> views(const std::vector<CaseEntry>& cases, const std::filesystem::path& results) {
-  std::vector<BedView> made;
+/// The pictures of a case that can be drawn. What cannot be read is said, and costs its picture alone: the rest of the
+/// report rests on the database.
+CaseViews views_of(const std::filesystem::path& directory, const CaseEntry& entry) {
+  CaseViews of{.label = entry.label, .views = {}};
+  if (!std::filesystem::exists(directory / "case.toml")) return of;
+  using View = std::optional<BedView>(const std::filesystem::path&, const CaseDirectory&);
+  const std::pair<std::string_view, View*> moments[] = {{"at rest", view_at_rest}, {"as it stands", newest_view}};
+  for (const auto& [when, view] : moments) try {
+      if (auto drawn = view(directory, read_case_directory(directory))) of.views.push_back(std::move(*drawn));
+    } catch (const Error& error) {
+      log_warning(fmt::format("the report has no picture of {} {}: {}", entry.label, when, error.what()));
+    }
+  return of;
+}
+
+/// The first cases that have a bed to show.
+std::vector<CaseViews> views(const std::vector<CaseEntry>& cases, const std::filesystem::path& results) {
+  std::vector<CaseViews> made;
   for (const auto& entry : cases) {
-    if (entry.is_bed || !entry.in_study || made.size() >= most_pictures) continue;
-    if (auto view = view_in(results / entry.directory, entry)) made.push_back(std::move(*view));
+    if (entry.is_bed || !entry.in_study || made.size() >= most_pictured) continue;
+    auto of = views_of(results / entry.directory, entry);
+    if (!of.views.empty()) made.push_back(std::move(of));
   }
   return made;
 }

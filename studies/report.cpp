@@ -91,16 +91,19 @@ std::string history_section(const Database& database, const std::vector<Finished
                  for_each_case(cases, [&](const FinishedCase& of) { return history_figure(database, of); }));
 }
 
-std::string bed_section(const std::vector<BedView>& beds) {
+std::string bed_section(const std::vector<CaseViews>& beds) {
   if (beds.empty()) return {};
-  std::string pictures;
-  for (const BedView& bed : beds)
-    pictures += fmt::format("<div><h3>{} <span class='moment'>{}</span></h3>{}</div>\n", escaped(bed.label),
-                            escaped(bed.moment), scrolling(bed_picture(bed, 468)));
-  const std::string body = scrolling(speed_scale_bar()) + "<div class='row'>" + pictures + "</div>\n";
+  std::string body = scrolling(speed_scale_bar());
+  for (const CaseViews& of : beds) {
+    std::string pictures;
+    for (const BedView& bed : of.views)
+      pictures +=
+          fmt::format("<div><p class='moment'>{}</p>{}</div>\n", escaped(bed.moment), scrolling(bed_picture(bed, 468)));
+    body += fmt::format("<h3>{}</h3>\n<div class='row'>{}</div>\n", escaped(of.label), pictures);
+  }
   return section("The bed",
-                 "Side view of the newest checkpoint: the grains of the front five diameters, farther ones through haze, "
-                 "coloured by speed.",
+                 "Side view of the bed at rest, before its first hold, and in the newest checkpoint: the grains of the "
+                 "front five diameters, farther ones through haze, coloured by speed.",
                  body);
 }
 

@@ -9,21 +9,25 @@
 
 namespace bedload {
 
-/// A bed as it stands in the newest checkpoint of a case.
+/// A bed as it stands at one moment of a case.
 struct BedView {
-  std::string label;    // of the case
-  std::string moment;   // what is shown, e.g. "hold 9, theta = 0.17"
+  std::string moment;   // what is shown, e.g. "after hold 9, theta = 0.17"
   Grains grains;
   Vec3 length;              // box [m]
   double diameter = 0;      // mean [m]
   double speed_scale = 0;   // sqrt((s-1) g d) [m/s]
 };
 
+struct CaseViews {
+  std::string label;   // of the case
+  std::vector<BedView> views;
+};
+
 struct ReportRequest {
-  std::string study;           // name
-  std::string command;         // that reproduces the figures
-  std::string written;         // date and time, as text; empty = not said
-  std::vector<BedView> beds;   // one picture each
+  std::string study;             // name
+  std::string command;           // that reproduces the figures
+  std::string written;           // date and time, as text; empty = not said
+  std::vector<CaseViews> beds;   // the pictures of a case stand side by side
 };
 
 /// The whole page. Reads the result tables (which may be empty) and, where they exist, the tables of the ledger.

@@ -13,7 +13,7 @@ header p { margin: 0; color: var(--soft); }
 section { background: var(--paper); border: 1px solid var(--border); border-radius: 8px; padding: 18px 24px 20px; margin-top: 20px; }
 h2 { font-size: 18px; margin: 0 0 4px; }
 h3 { font-size: 14px; margin: 14px 0 4px; }
-.moment { font-weight: 400; color: var(--soft); }
+p.moment { margin: 0 0 4px; font-size: 13.5px; color: var(--soft); }
 sub { line-height: 0; }
 p.caption { margin: 0 0 12px; color: var(--soft); font-size: 13.5px; max-width: 92ch; }
 .row { display: flex; flex-wrap: wrap; gap: 8px 22px; } .row > div { min-width: 0; max-width: 100%; }
@@ -37,8 +37,9 @@ td code { word-break: break-all; font-size: 12px; color: var(--soft); }
 }
 @media print {
   body { background: none; font-size: 10pt; } main { max-width: none; padding: 0; } section { border: 0; padding: 0; }
-  .scroll { overflow: visible; } svg.plot { min-width: 0 !important; } table { font-size: 8pt; } th, td { padding-right: 7px; }
-  pre { white-space: pre-wrap; } svg, tr, .row > div { break-inside: avoid; } h2, h3, .caption { break-after: avoid; }
+  .scroll { overflow: visible; } svg { min-width: 0 !important; } table { font-size: 8pt; } th, td { padding-right: 7px; }
+  pre { white-space: pre-wrap; } .row > div { flex: 0 1 47%; } .row > div:has(.row) { flex-basis: 100%; }
+  svg, tr, .row > div { break-inside: avoid; } h2, h3, .caption { break-after: avoid; }
   * { print-color-adjust: exact; }
 }
 )css";

@@ -179,11 +179,25 @@ TEST_F(ReportTest, SaysWhichCasesAreOutOfRange) {
 }
 
 BedView two_grains() {
-  BedView view{.label = "bed", .moment = "", .grains = {}, .length = {10, 20, 5}, .diameter = 1, .speed_scale = 1};
+  BedView view{.moment = "at rest", .grains = {}, .length = {10, 20, 5}, .diameter = 1, .speed_scale = 1};
   view.grains.resize(2);
   view.grains.position = {{4, 1, 1}, {5, 12, 1}};   // the second lies behind the slice of five diameters
   view.grains.diameter = {1, 1};
   return view;
+}
+
+TEST_F(ReportTest, ShowsTheBedsOfACaseSideBySide) {
+  BedView later = two_grains();
+  later.moment = "after hold 3 <of 4>";
+  const std::string html = report_html(
+      database_, {"study", "bedload run my.toml", "", {{"case <1>", {two_grains(), later}}, {"case 2", {later}}}});
+  const auto first = html.find("<h3>case &lt;1&gt;</h3>"), second = html.find("<h3>case 2</h3>");
+  ASSERT_LT(first, second);
+  const std::string of_first = html.substr(first, second - first);
+  EXPECT_LT(of_first.find("at rest"), of_first.find("after hold 3 &lt;of 4&gt;"));
+  EXPECT_EQ(occurrences(of_first, "<svg class='bed'"), 2u);
+  EXPECT_EQ(occurrences(of_first, "<div class='row'>"), 1u);
+  EXPECT_EQ(occurrences(html.substr(second), "<svg class='bed'"), 1u);
 }
 
 TEST(BedPicture, ShowsTheFrontSlice) { EXPECT_EQ(occurrences(bed_picture(two_grains(), 100), "<circle"), 1u); }
