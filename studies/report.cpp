@@ -55,11 +55,14 @@ std::string threshold_section(const std::vector<ThresholdPoint>& curve, const st
                     : scrolling(threshold_figure(curve)) + curve_table(curve) + "<p class='caption'>" +
                           escaped(onset_in_words(curve) + "; systematic: " + budget_in_words(budget)) + "</p>\n";
   return section(
-      "Threshold of motion",
+      std::ranges::any_of(curve, is_screening) ? "Threshold of motion: screening by ramps" : "Threshold of motion",
       "θ = τ<sub>b</sub>/((ρ<sub>p</sub> − ρ<sub>f</sub>) g d) above which half of all packings begin to move, by a "
       "fit to "
       "the brackets of the seeds. Bars: its 95 % interval where there are six seeds or more, else from the lowest "
-      "to the highest bound of any seed. Open markers with an arrow are one-sided bounds. The published "
+      "to the highest bound of any seed; the thin pale bar around it, with wider caps, is the systematic error that "
+      "pairs "
+      "of runs of one packing measured (bracket, hold, mesh, area), and missing where there are no pairs. A ramp is "
+      "screening: it says where to look. Open markers with an arrow are one-sided bounds. The published "
       "curves are fits to turbulent flow; "
       "a laminar model that knows drag alone is expected near the laminar band or above it, not on them.",
       body);

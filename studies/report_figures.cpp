@@ -64,13 +64,15 @@ std::string bounds_of(const ThresholdPoint& p) {
 
 void draw_point(SvgPlot& plot, const ThresholdPoint& p, Marker shape, std::string_view colour) {
   const auto about = [&](std::string_view value) {
-    return fmt::format("{}: theta_c {} at Re* = {:.3g}, {} ({})", p.label, value, p.reynolds, p.status,
-                       counted(p.seeds, "seed"));
+    return fmt::format("{}: theta_c {} at Re* = {:.3g}, {} ({}{})", p.label, value, p.reynolds, p.status,
+                       counted(p.seeds, "seed"), is_screening(p) ? ", screening" : "");
   };
   if (std::isfinite(p.shields)) {
     const bool fitted = p.confidence >= 0.95 && std::isfinite(p.interval_lower) && std::isfinite(p.interval_upper);
     const double from = fitted ? p.interval_lower : p.lower, to = fitted ? p.interval_upper : p.upper;
     if (std::isfinite(from) && std::isfinite(to)) plot.vertical_bar(p.reynolds, from, to, colour);
+    if (p.systematic > 0)
+      plot.thin_bar(p.reynolds, p.shields * std::max(0.0, 1 - p.systematic), p.shields * (1 + p.systematic), colour);
     plot.marker({p.reynolds, p.shields}, shape, colour, true,
                 about(fmt::format("= {:.4f}{}", p.shields, bounds_of(p))));
     return;
@@ -83,6 +85,8 @@ void draw_point(SvgPlot& plot, const ThresholdPoint& p, Marker shape, std::strin
 
 }   // namespace
 
+bool is_screening(const ThresholdPoint& p) { return p.method == "ramp"; }
+
 std::string threshold_figure(const std::vector<ThresholdPoint>& curve) {
   SvgPlot plot(940, 520, {"Re* = u* d/ν  [–]", 0.1, 1000, true}, {"Shields number at onset θc  [–]", 0.01, 1, true},
                210);
@@ -92,12 +96,16 @@ std::string threshold_figure(const std::vector<ThresholdPoint>& curve) {
   const auto densities = distinct_values(curve, &ThresholdPoint::density_ratio);
   const auto colour_of = [&](double d) { return palette[rank_among(diameters, d) % palette.size()]; };
   const auto shape_of = [&](double s) { return shapes[rank_among(densities, s) % shapes.size()]; };
-  if (!curve.empty()) {
-    plot.legend_heading("this study");
+  for (const bool screening : {false, true}) {
+    const auto has = [&](auto&& more) {
+      return std::ranges::any_of(curve,
+                                 [&](const ThresholdPoint& p) { return is_screening(p) == screening && more(p); });
+    };
+    if (!has([](const ThresholdPoint&) { return true; })) continue;
+    plot.legend_heading(screening ? "this study: ramp (screening)" : "this study: bisection");
     for (const double d : diameters)
       for (const double s : densities)
-        if (std::any_of(curve.begin(), curve.end(),
-                        [&](const ThresholdPoint& p) { return p.diameter == d && p.density_ratio == s; }))
+        if (has([&](const ThresholdPoint& p) { return p.diameter == d && p.density_ratio == s; }))
           plot.legend_marker(fmt::format("d = {:.4g} mm, s = {:.4g}", d * 1e3, s), shape_of(s), colour_of(d), true);
   }
   plot.legend_heading("laminar beds, measured");

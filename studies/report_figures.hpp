@@ -9,6 +9,8 @@
 
 namespace bedload {
 
+/// Whether a ramp gave the threshold: it says where to look, bisection says where it is.
+bool is_screening(const ThresholdPoint&);
 /// Table threshold_curve, beside the published curves: theta_c over Re*, logarithmic; open markers with arrows are bounds.
 std::string threshold_figure(const std::vector<ThresholdPoint>&);
 

@@ -122,14 +122,21 @@ void SvgPlot::line(const std::vector<PlotPoint>& points, Stroke stroke) {
                         stroke.colour, stroke.width, dashes(stroke.dash));
 }
 
-void SvgPlot::vertical_bar(double x, double low, double high, std::string_view colour) {
+void SvgPlot::bar(double x, double low, double high, double cap, std::string_view stroke) {
   const double at = x_of(x), from = std::clamp(y_of(low), 0.0, inner_height_),
                to = std::clamp(y_of(high), 0.0, inner_height_);
   if (at < 0 || at > inner_width_) return;
   marks_ += fmt::format(
-      "<path d='M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {1:.1f}h8M{3:.1f} {2:.1f}h8' stroke='{4}' stroke-width='1.4' "
-      "fill='none'/>",
-      at, from, to, at - 4, colour);
+      "<path d='M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {1:.1f}h{4:.0f}M{3:.1f} {2:.1f}h{4:.0f}' {5} fill='none'/>", at, from,
+      to, at - cap, 2 * cap, stroke);
+}
+
+void SvgPlot::vertical_bar(double x, double low, double high, std::string_view colour) {
+  bar(x, low, high, 4, fmt::format("stroke='{}' stroke-width='1.4'", colour));
+}
+
+void SvgPlot::thin_bar(double x, double low, double high, std::string_view colour) {
+  bar(x, low, high, 8, fmt::format("stroke='{}' stroke-width='1' stroke-opacity='0.7'", colour));
 }
 
 void SvgPlot::vertical_arrow(double x, double from, bool upward, std::string_view colour) {

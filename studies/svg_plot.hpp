@@ -39,7 +39,8 @@ class SvgPlot {
 
   void shade(PlotPoint from, PlotPoint to, std::string_view colour, double opacity);
   void line(const std::vector<PlotPoint>&, Stroke);
-  void vertical_bar(double x, double low, double high, std::string_view colour);      // error bar with caps
+  void vertical_bar(double x, double low, double high, std::string_view colour);   // error bar with caps
+  void thin_bar(double x, double low, double high, std::string_view colour);   // beside an error bar: paler, wider caps
   void vertical_arrow(double x, double from, bool upward, std::string_view colour);   // an open bound
   void marker(PlotPoint, Marker, std::string_view colour, bool filled, std::string_view tooltip);
   void note(PlotPoint, std::string_view text, std::string_view colour, std::string_view anchor = "start");
@@ -56,6 +57,7 @@ class SvgPlot {
   double y_of(double y) const;   // [px] from its top
   bool inside(PlotPoint) const;
   std::string axes() const;
+  void bar(double x, double low, double high, double cap, std::string_view stroke);
 
   double width_, height_, inner_width_, inner_height_;
   PlotAxis x_, y_;

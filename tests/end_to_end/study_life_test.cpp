@@ -278,6 +278,7 @@ TEST_F(StudyLife, WritesAReport) {
   fs::remove(here() / "tiny" / "report.html");
   EXPECT_EQ(bedload(here(), {"report", "tiny.toml"}).out, "tiny/report.html\n");
   EXPECT_NE(contents(here() / "tiny" / "report.html").find("<svg"), std::string::npos);
+  EXPECT_NE(contents(here() / "tiny" / "report.html").find("<p class='moment'>at rest</p>"), std::string::npos);
 }
 
 void damage(const fs::path& file) {

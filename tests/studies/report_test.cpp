@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <regex>
 #include <set>
 
@@ -37,6 +38,10 @@ class ReportTest : public ::testing::Test {
         "INSERT INTO threshold_curve VALUES (?,5e-4,2,1e-5,0.5,'ramp','flux',0.01,3.5,1.4,?,NULL,NULL,NULL,NULL,0,?,?,"
         "NULL,NULL,NULL,NULL,NULL,?,1,1,0,0,0,?)",
         {set, shields, lower, upper, std::string(status), set});
+  }
+  void by_bisection(const std::string& set, Value systematic) {
+    database_.execute("UPDATE threshold_curve SET method = 'bisect', systematic = ? WHERE parameter_set = ?",
+                      {systematic, set});
   }
   void add_case() {
     database_.execute(
@@ -127,6 +132,39 @@ TEST_F(ReportTest, SaysBoundsThatAreThereAndNoOthers) {
        {"a: theta_c = 0.1500, below 0.1614 at", "b: theta_c = 0.1500, above 0.1400 at", "c: theta_c = 0.1500 at"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   EXPECT_FALSE(std::regex_search(html, std::regex("\\bnan\\b")));
+}
+
+TEST_F(ReportTest, LabelsThresholdsOfRampsAsScreening) {
+  add_point("a", "bracketed", 0.17, 0.15, 0.18);
+  EXPECT_NE(page().find("<h2>Threshold of motion: screening by ramps</h2>"), std::string::npos);
+  EXPECT_NE(page().find(">this study: ramp (screening)<"), std::string::npos);
+  EXPECT_NE(page().find("bracketed (1 seed, screening)"), std::string::npos);
+  EXPECT_EQ(page().find(">this study: bisection<"), std::string::npos);
+  by_bisection("a", Value());
+  EXPECT_NE(page().find("<h2>Threshold of motion</h2>"), std::string::npos);
+  EXPECT_NE(page().find(">this study: bisection<"), std::string::npos);
+  EXPECT_EQ(page().find(">this study: ramp (screening)<"), std::string::npos);
+}
+
+// The thin bar reaches from theta (1 - e) to theta (1 + e), with e the relative error of the table.
+TEST_F(ReportTest, DrawsTheSystematicErrorBesideTheInterval) {
+  const auto thin_bar = [&] {
+    const std::regex path("d='M[0-9.]+ ([0-9.]+)V([0-9.]+)[^']*' stroke='[^']*' stroke-width='1' stroke-opacity");
+    const std::string html = page();
+    std::smatch found;
+    const bool there = std::regex_search(html, found, path);
+    return there ? std::pair(std::stod(found[1]), std::stod(found[2])) : std::pair(0.0, 0.0);
+  };
+  add_point("a", "bracketed", 0.1, 0.09, 0.11);
+  by_bisection("a", Value());
+  EXPECT_EQ(thin_bar().first, 0);   // mesh not tested: nothing to draw
+  by_bisection("a", 0.5);
+  const auto [low, high] = thin_bar();
+  EXPECT_GT(low, high);   // y points down; both from an axis of two decades, 464 pixels high
+  EXPECT_NEAR(low, 464 * (1 - std::log(0.05 / 0.01) / std::log(100.0)), 0.06);
+  EXPECT_NEAR(high, 464 * (1 - std::log(0.15 / 0.01) / std::log(100.0)), 0.06);
+  by_bisection("a", 1.5);   // down to nothing: the bar ends at the lower edge of the figure
+  EXPECT_NEAR(thin_bar().first, 464, 0.06);
 }
 
 TEST_F(ReportTest, SaysARangeOnlyWhereThereIsOne) {
