@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/counted.hpp"
+#include "studies/attempt_figure.hpp"
 #include "studies/bed_picture.hpp"
 #include "studies/case_warnings.hpp"
 #include "studies/database_values.hpp"
@@ -180,11 +181,12 @@ std::string health_section(const Database& database) {
     rows += "<tr>" + text_cell(cause) + number_cell(number_in(row[1]), "{:.0f}") +
             number_cell(number_in(row[2]) / 3600, "{:.3g}") + "</tr>\n";
   }
+  const std::string line = attempt_figure(database);
   return section(
       "Run health",
       "Every attempt at every case and bed, by the cause of its end. Work after the last checkpoint of an attempt "
-      "is done again by the next.",
-      html_table(rows));
+      "is done again by the next. The time line has one row per bed and case, one bar per attempt.",
+      html_table(rows) + (line.empty() ? line : scrolling(line)));
 }
 
 std::string provenance_section(const Database& database, const ReportRequest& request) {

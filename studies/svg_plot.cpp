@@ -25,7 +25,8 @@ std::string escaped(std::string_view text) {
 
 namespace {
 
-constexpr double left = 70, right = 14, top = 10, bottom = 46;   // margins [px]
+constexpr double least_left = 70, most_left = 270, right = 14, top = 10, bottom = 46;   // margins [px]
+constexpr double letter = 7.6;   // width of one, at most on the mean [px]
 constexpr double legend_step = 18;
 constexpr double least_scale = 0.85;   // a page narrower than that scrolls: letters of 10 px can still be read
 
@@ -92,10 +93,21 @@ std::string marker_shape(double x, double y, Marker shape, std::string_view colo
 
 }   // namespace
 
+namespace {
+
+double left_of(const PlotAxis& y) {
+  double left = least_left;
+  for (const std::string& row : y.rows) left = std::max(left, letter * double(row.size()) + 12);
+  return std::min(left, most_left);   // of a longer label the picture shows the end
+}
+
+}   // namespace
+
 SvgPlot::SvgPlot(double width, double height, PlotAxis x, PlotAxis y, double legend_width)
     : width_(width),
       height_(height),
-      inner_width_(width - left - right - legend_width),
+      left_(left_of(y)),
+      inner_width_(width - left_ - right - legend_width),
       inner_height_(height - top - bottom),
       x_(std::move(x)),
       y_(std::move(y)) {}
@@ -108,10 +120,11 @@ bool SvgPlot::inside(PlotPoint p) const {
   return x >= -1e-9 && x <= 1 + 1e-9 && y >= -1e-9 && y <= 1 + 1e-9;
 }
 
-void SvgPlot::shade(PlotPoint from, PlotPoint to, std::string_view colour, double opacity) {
+void SvgPlot::shade(PlotPoint from, PlotPoint to, std::string_view colour, double opacity, std::string_view tooltip) {
   const double x = x_of(from.x), y = y_of(to.y);
-  areas_ += fmt::format("<rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' fill='{}' opacity='{}'/>", x, y,
+  areas_ += fmt::format("<rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' fill='{}' opacity='{}'", x, y,
                         x_of(to.x) - x, y_of(from.y) - y, colour, opacity);
+  areas_ += tooltip.empty() ? "/>" : fmt::format("><title>{}</title></rect>", escaped(tooltip));
 }
 
 void SvgPlot::line(const std::vector<PlotPoint>& points, Stroke stroke) {
@@ -198,17 +211,23 @@ std::string SvgPlot::axes() const {
       labels += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>", x, inner_height_ + 17,
                             tick_text(x_, tick.value));
   }
-  for (const Tick& tick : ticks_of(y_, inner_height_)) {
-    const double y = y_of(tick.value);
-    grid += fmt::format("<path d='M0 {:.1f}H{:.1f}' class='{}'/>", y, inner_width_, tick.labelled ? "grid" : "fine");
-    if (tick.labelled)
-      labels += fmt::format("<text x='-7' y='{:.1f}' text-anchor='end'>{}</text>", y + 4, tick_text(y_, tick.value));
-  }
+  for (std::size_t n = 0; n < y_.rows.size(); ++n)
+    if (!y_.rows[n].empty())
+      labels += fmt::format("<text x='-7' y='{:.1f}' text-anchor='end'>{}</text>",
+                            y_of(double(y_.rows.size() - n) - 0.5) + 4, escaped(y_.rows[n]));
+  if (y_.rows.empty())
+    for (const Tick& tick : ticks_of(y_, inner_height_)) {
+      const double y = y_of(tick.value);
+      grid += fmt::format("<path d='M0 {:.1f}H{:.1f}' class='{}'/>", y, inner_width_, tick.labelled ? "grid" : "fine");
+      if (tick.labelled)
+        labels += fmt::format("<text x='-7' y='{:.1f}' text-anchor='end'>{}</text>", y + 4, tick_text(y_, tick.value));
+    }
   labels += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle' class='axis'>{}</text>", inner_width_ / 2,
                         inner_height_ + 38, escaped(x_.label));
-  labels +=
-      fmt::format("<text transform='translate(-53 {:.1f}) rotate(-90)' text-anchor='middle' class='axis'>{}</text>",
-                  inner_height_ / 2, escaped(y_.label));
+  if (!y_.label.empty())
+    labels +=
+        fmt::format("<text transform='translate(-53 {:.1f}) rotate(-90)' text-anchor='middle' class='axis'>{}</text>",
+                    inner_height_ / 2, escaped(y_.label));
   return grid + labels;
 }
 
@@ -218,7 +237,7 @@ std::string SvgPlot::svg() const {
       "style='min-width:{11:.0f}px' role='img'>"
       "<g transform='translate({2} {3})'>{4}<svg width='{5:.1f}' height='{6:.1f}' overflow='hidden'>{7}</svg>"
       "<rect width='{5:.1f}' height='{6:.1f}' class='frame'/>{8}<g transform='translate({9:.1f} 0)'>{10}</g></g></svg>",
-      width_, height_, left, top, axes(), inner_width_, inner_height_, areas_, marks_, inner_width_ + 22, legend_,
+      width_, height_, left_, top, axes(), inner_width_, inner_height_, areas_, marks_, inner_width_ + 22, legend_,
       least_scale * width_);
 }
 

@@ -17,6 +17,8 @@ struct PlotAxis {
   std::string label;   // with its unit
   double low = 0, high = 1;
   bool logarithmic = false;
+  /// Of a vertical axis: rows instead of numbers, the first on top. Row n lies between size - n - 1 and size - n.
+  std::vector<std::string> rows = {};
 };
 
 struct Stroke {
@@ -37,7 +39,7 @@ class SvgPlot {
   /// Width and height of the whole picture [px], the legend's column included.
   SvgPlot(double width, double height, PlotAxis x, PlotAxis y, double legend_width = 0);
 
-  void shade(PlotPoint from, PlotPoint to, std::string_view colour, double opacity);
+  void shade(PlotPoint from, PlotPoint to, std::string_view colour, double opacity, std::string_view tooltip = {});
   void line(const std::vector<PlotPoint>&, Stroke);
   void vertical_bar(double x, double low, double high, std::string_view colour);   // error bar with caps
   void thin_bar(double x, double low, double high, std::string_view colour);   // beside an error bar: paler, wider caps
@@ -59,7 +61,7 @@ class SvgPlot {
   std::string axes() const;
   void bar(double x, double low, double high, double cap, std::string_view stroke);
 
-  double width_, height_, inner_width_, inner_height_;
+  double width_, height_, left_, inner_width_, inner_height_;
   PlotAxis x_, y_;
   double legend_y_ = 6;
   std::string areas_, marks_, legend_;

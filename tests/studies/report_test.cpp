@@ -7,6 +7,7 @@
 #include <regex>
 #include <set>
 
+#include "studies/attempt_figure.hpp"
 #include "studies/bed_picture.hpp"
 #include "studies/results.hpp"
 #include "studies/svg_plot.hpp"
@@ -222,6 +223,42 @@ BedView two_grains() {
   view.grains.position = {{4, 1, 1}, {5, 12, 1}};   // the second lies behind the slice of five diameters
   view.grains.diameter = {1, 1};
   return view;
+}
+
+// Two attempts at one case, of 40 s and 60 s, the first one killed; the second case still runs.
+TEST_F(ReportTest, DrawsAttemptsInTime) {
+  EXPECT_EQ(attempt_figure(database_), "");
+  database_.execute("CREATE TABLE cases (case_id TEXT, position INTEGER, label TEXT, in_study INTEGER)");
+  database_.execute(
+      "CREATE TABLE attempts (case_id TEXT, number INTEGER, start_utc TEXT, end_utc TEXT, cause TEXT, core_time_s "
+      "REAL)");
+  EXPECT_EQ(attempt_figure(database_), "");
+  database_.execute("INSERT INTO cases VALUES ('b', 1, 'second', 1), ('a', 0, 'first <1>', 1)");
+  database_.execute(
+      "INSERT INTO attempts VALUES ('a', 1, '2026-01-01T23:59:00Z', '2026-01-01T23:59:40Z', 'killed', 1),"
+      "('a', 2, '2026-01-02T00:00:00Z', '2026-01-02T00:01:00Z', 'finished', 1),"
+      "('b', 1, '2026-01-02T00:00:40Z', NULL, 'running', 1)");
+  const std::string figure = attempt_figure(database_);
+  struct Drawn {
+    double x, y, width;
+    std::string colour, title;
+  };
+  std::vector<Drawn> bars;
+  const std::regex bar(
+      "<rect x='([0-9.]+)' y='([0-9.]+)' width='([0-9.]+)' height='[0-9.]+' fill='([^']*)' [^>]*><title>([^<]*)<");
+  for (auto at = std::sregex_iterator(figure.begin(), figure.end(), bar); at != std::sregex_iterator(); ++at)
+    bars.push_back({std::stod((*at)[1]), std::stod((*at)[2]), std::stod((*at)[3]), (*at)[4], (*at)[5]});
+  ASSERT_EQ(bars.size(), 3u);
+  EXPECT_EQ(bars[0].title, "first &lt;1&gt;, attempt 1: killed, 40 s");
+  EXPECT_EQ(bars[2].title, "second, attempt 1: running, 20 s");   // until the last time that is known
+  EXPECT_EQ(bars[0].x, 0);
+  EXPECT_NEAR(bars[1].x / bars[0].width, 60.0 / 40, 0.01);
+  EXPECT_NEAR(bars[1].width / bars[0].width, 60.0 / 40, 0.01);
+  EXPECT_NEAR(bars[2].x / bars[0].width, 100.0 / 40, 0.01);
+  EXPECT_EQ(bars[0].y, bars[1].y);
+  EXPECT_GT(bars[2].y, bars[1].y);
+  EXPECT_NE(bars[0].colour, bars[1].colour);
+  EXPECT_NE(page().find(figure), std::string::npos);
 }
 
 TEST_F(ReportTest, ShowsTheBedsOfACaseSideBySide) {
