@@ -3,6 +3,7 @@
 
 #include "app/commands.hpp"
 #include "base/durable_file.hpp"
+#include "base/error.hpp"
 #include "base/log.hpp"
 #include "studies/case_entry.hpp"
 #include "studies/plan.hpp"
@@ -35,14 +36,16 @@ int trade_command(RunOptionsOfCommand options, std::optional<double> core_hours)
   refuse_without_trades(study);
   const auto cases = unfold(study);
   if (core_hours) options.study.cases = within(*core_hours, cases);
-  if (const int code = run_command(options); code != 0) return code;
+  const int code = run_command(options);
+  const bool complete = code == 0 || code == static_cast<int>(ErrorKind::some_failed);   // what failed is not compared
+  if (!complete) return code;
   const auto trade = measured_trade(open_results(place), study, cases);
   publish(place.directory / "trade.json", trade_as_json(trade));
   publish(place.directory / "trade.svg", trade_figure(trade));
   fmt::print("{}", options.study.form == Form::json ? trade_as_json(trade) : trade_as_table(trade));
   log_note(fmt::format("{} and trade.svg beside it; another study uses it with models.accuracy",
                        (place.directory / "trade.json").string()));
-  return 0;
+  return code;
 }
 
 }   // namespace bedload

@@ -107,7 +107,7 @@ std::string trade_figure(const Trade& trade) {
     plot.marker({one->core_seconds, error}, Marker::circle, colour, one->theta.seen() || one->name == "finest",
                 fmt::format("{}: {} at {:.3g} core s", one->name, difference_in_words(one->theta, 0.01, "%"),
                             one->core_seconds));
-    plot.note({one->core_seconds, error}, "  " + one->name, colour);
+    plot.note({one->core_seconds, error}, "\u00a0\u00a0" + one->name, colour);
   }
   plot.legend_marker("on the frontier", Marker::circle, "#1f6feb", true);
   plot.legend_marker("dearer, or no better", Marker::circle, "#8a8a8a", true);
