@@ -7,6 +7,7 @@
 
 #include "solver/bed/bed_profiles.hpp"
 #include "solver/bed/bed_surface.hpp"
+#include "solver/bed/frozen_grains.hpp"
 #include "solver/bed/incipient_motion.hpp"
 #include "solver/coupling/drag_laws.hpp"
 #include "solver/dimensionless.hpp"
@@ -88,7 +89,7 @@ void BedRecorder::before_step(State& state) {
   for (std::size_t p = 0; p < x_before_.size(); ++p) x_before_[p] = state.grains.position[p].x;
 }
 
-void BedRecorder::after_step(State& state, const StepHealth& health, const StepBooks& books) {
+bool BedRecorder::after_step(State& state, const StepHealth& health, const StepBooks& books) {
   Search& search = state.search;
   const double period = scene_.grid.periodic(0) ? scene_.bed.length.x : 0;
   const double events = double(count_events(state.grains, x_before_, period, scene_.bed.grains.diameter));
@@ -108,7 +109,9 @@ void BedRecorder::after_step(State& state, const StepHealth& health, const StepB
     close_block(state);
   }
   add(health, search.health);
-  if (state.clock.time >= search.next_sample) record_sample(state, health);
+  const bool sampled = state.clock.time >= search.next_sample;
+  if (sampled) record_sample(state, health);
+  return sampled;
 }
 
 /// The last half is cut into blocks whose scatter gives the standard error of its flux.
@@ -153,7 +156,7 @@ double BedRecorder::measured_shields(const Search& search, const Window& window,
 double BedRecorder::momentum_residual(const Grains& grains, const Window& window, const StreamwiseMomentum& now) const {
   const auto& fixed = grains.fixed;
   const bool seen = scene_.fluid != FluidRung::profile && scene_.grid.periodic(0) && scene_.grid.periodic(1) &&
-                    std::find(fixed.begin(), fixed.end(), 1) == fixed.end();
+                    std::ranges::all_of(fixed, [](std::uint8_t f) { return f == 0; });
   if (!seen || stress_scale_ <= 0) return not_known;
   return std::abs(now.total - window.momentum - window.outer_impulse) / (window.duration * area_ * stress_scale_);
 }
@@ -167,12 +170,13 @@ void append_bed(const Scene& scene, const State& state, Rows& rows) {
   rows.bed_height.push_back(surface.height);
   rows.moved_grains.push_back(double(count_moved(state.grains)));
   rows.roughness.push_back(surface.roughness);
-  rows.coordination.push_back(coordination(state.contacts, state.grains.size()));
+  const ContactHistory contacts = all_contacts(state.contacts, state.asleep);
+  rows.coordination.push_back(coordination(contacts, state.grains.size()));
   if constexpr (requires { rows.porosity; }) {
     rows.porosity.push_back(surface.porosity);
     rows.bed_top.push_back(surface.top);
     rows.slope.push_back(surface.slope);
-    rows.bearing_coordination.push_back(bearing_coordination(state.contacts, state.grains.size()));
+    rows.bearing_coordination.push_back(bearing_coordination(contacts, state.grains.size()));
   }
 }
 
@@ -247,6 +251,8 @@ void BedRecorder::close_hold(State& state) {
   append(double(search.hold), search.health, state.record.health);
   record_profiles_of(state, double(search.hold));
 }
+
+double BedRecorder::slow_speed() const { return moving_speed(speed_scale_); }
 
 void BedRecorder::record_settled_bed(State& state) const {
   constexpr double before_the_ramp = -1;

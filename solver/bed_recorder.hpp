@@ -16,10 +16,12 @@ class BedRecorder {
 
   /// Before a step: begins the windows that are due and notes where the grains are.
   void before_step(State&);
-  /// After a step: counts events, adds forces, and writes a row of samples and tracks when one is due.
-  void after_step(State&, const StepHealth&, const StepBooks&);
+  /// After a step: counts events, adds forces, and writes a row of samples and tracks when one is due: then true.
+  bool after_step(State&, const StepHealth&, const StepBooks&);
   /// At the end of a hold: its row and its profiles.
   void close_hold(State&);
+  /// Above which a grain counts as moving [m/s].
+  double slow_speed() const;
   /// The bed as the flow finds it: packing, coordination, and profiles as those of hold -1.
   void record_settled_bed(State&) const;
 

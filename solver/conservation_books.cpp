@@ -173,7 +173,8 @@ double ConservationBooks::Parts::of_added_mass(const State& state) {
 void ConservationBooks::Parts::book_momentum(const Sums& before, const Sums& after, const State& state, double dt,
                                              const StepBooks& books) {
   const Grains& grains = state.grains;
-  const bool seen = grid.periodic(0) && grid.periodic(1) && std::ranges::find(grains.fixed, 1) == grains.fixed.end();
+  const bool seen =
+      grid.periodic(0) && grid.periodic(1) && std::ranges::all_of(grains.fixed, [](std::uint8_t f) { return f == 0; });
   if (!seen) return;
   Vec3 force = books.driving - books.on_bottom - books.on_lid - books.contact_on_walls;
   for (std::size_t p = 0; p < grains.size(); ++p) {

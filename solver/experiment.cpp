@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/random_stream.hpp"
 #include "solver/bed/bed_surface.hpp"
+#include "solver/bed/frozen_grains.hpp"
 #include "solver/bed/incipient_motion.hpp"
 #include "solver/bed/onset_search.hpp"
 #include "solver/bed/turbulent_flow.hpp"
@@ -72,6 +73,7 @@ struct Experiment::Parts {
   StepHealth hold(State&);
   StepHealth coupled_step(State&);
   void begin_hold(State&);
+  void freeze(State&) const;
   void forget_flow(State&) const;
   void add_steady_flow(State&, const ImposedFlow& change) const;
 };
@@ -172,6 +174,7 @@ void Experiment::Parts::end_shear(State& state) {
   const double flux = state.record.holds.flux.back();
   state.record = {};
   state.record.settled.shear_flux = flux;
+  thaw(state.grains, state.contacts, state.asleep);
   state.fluid = initial_flow(scene);
   state.search = {};                                          // packing, ...
   state.search.purpose = std::uint64_t(HoldPurpose::shear);   // ... not for the first time
@@ -193,7 +196,7 @@ StepHealth Experiment::Parts::hold(State& state) {
   recorder.before_step(state);
   const StepHealth health = coupled_step(state);
   if (!ailment(health).empty()) return health;
-  recorder.after_step(state, health, coupler.books());
+  if (recorder.after_step(state, health, coupler.books())) freeze(state);
   if (state.clock.time - search.hold_start < search.duration) return health;
 
   if (search.purpose == std::uint64_t(HoldPurpose::shear)) return end_shear(state), health;
@@ -244,6 +247,7 @@ void Experiment::Parts::begin_hold(State& state) {
   search.purpose = static_cast<std::uint64_t>(plan.purpose);
   search.level = plan.level, search.duration = plan.duration;
   search.bed_height = bed_surface(state.grains, scene.bed.length, scene.bed.grains.diameter).height;
+  freeze(state);
   const ImposedFlow flow = imposed_level(scene, plan.level, search.bed_height);
   if (scene.fluid == FluidRung::profile) forget_flow(state);   // it is the new level's alone
   if (scene.developed)
@@ -274,6 +278,14 @@ void Experiment::Parts::return_to_settled_bed(State& state) {
   forget_flow(state);
   state.grains = settled.grains;
   state.contacts = settled.contacts;
+  state.asleep = {};
+}
+
+/// Which grains lie too deep to move is asked with every sample.
+void Experiment::Parts::freeze(State& state) const {
+  if (scene.frozen_depth > 0)
+    freeze_deep_grains(scene.bed, scene.frozen_depth, recorder.slow_speed(), state.grains, state.contacts,
+                       state.asleep);
 }
 
 void Experiment::Parts::forget_flow(State& state) const {

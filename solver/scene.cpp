@@ -213,6 +213,13 @@ void check_roughness(const Scene& scene, Found& found) {
     found.push_back({"box.roughness", "it is that of the bottom, and a periodic z has none", "leave it out"});
 }
 
+void check_frozen(const Scene& scene, Found& found) {
+  if (scene.frozen_depth == 0) return;
+  if (!needs_settling(scene.bed))
+    found.push_back({"models.frozen_depth", "only a bed that lies on a bottom has a surface to be deep below",
+                     "bed.source = \"poured\", or leave frozen_depth out"});
+}
+
 void check_tracks(const Scene& scene, Found& found) {
   for (const auto id : scene.record.tracks) {
     if (scene.bed.source.kind == BedSource::Kind::file || id < scene.bed.source.count) continue;
@@ -271,6 +278,7 @@ std::vector<SceneProblem> problems_of(const Scene& scene) {
   check_terms(scene, found);
   check_smoothing(scene, found);
   check_roughness(scene, found);
+  check_frozen(scene, found);
   check_tracks(scene, found);
   check_steps(scene, found);
   return found;

@@ -112,6 +112,7 @@ struct Scene {
   DragLawName drag = DragLawName::di_felice;
   Terms terms;
   Smoothing smoothing;
+  double frozen_depth = 0;   // below the bed's surface, beyond which grains are not moved [m]; 0 = all are
   Steps steps;
   RecordPlan record;
   bool bed_only = false;   // finished once the bed has settled (a bed directory)

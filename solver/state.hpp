@@ -64,6 +64,7 @@ struct State {
   FluidState fluid;
   Grains grains;
   ContactHistory contacts;
+  ContactHistory asleep;   // contacts between grains that are frozen (bed/frozen_grains)
   Search search;
   BedRecord record;
 
@@ -105,6 +106,12 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("contacts/spring", s.contacts.spring, "m");
   visit("contacts/damping", s.contacts.damping, "1");
   visit("contacts/rolling", s.contacts.rolling, "rad");
+
+  visit("asleep/lower", s.asleep.lower, "1");
+  visit("asleep/higher", s.asleep.higher, "1");
+  visit("asleep/spring", s.asleep.spring, "m");
+  visit("asleep/damping", s.asleep.damping, "1");
+  visit("asleep/rolling", s.asleep.rolling, "rad");
 
   visit("search/phase", s.search.phase, "1");
   visit("search/hold", s.search.hold, "1");

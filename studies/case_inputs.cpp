@@ -65,7 +65,7 @@ class Resolver : InputList {
   void onset();
   void bisection();
   void models();
-  void smoothing();
+  void lengths_or_none();
   void wanted();
   void grains();
   void stiffness();
@@ -307,9 +307,9 @@ void Resolver::models() {
   else take("models.terms");
 }
 
-/// Widths may be counted in grain diameters. No width is none: a case without smoothing keeps its identity.
-void Resolver::smoothing() {
-  for (const auto key : {"models.smoothing.xy", "models.smoothing.z"}) {
+/// Lengths that may be counted in grain diameters. None is none: a case without smoothing keeps its identity.
+void Resolver::lengths_or_none() {
+  for (const auto key : {"models.smoothing.xy", "models.smoothing.z", "models.frozen_depth"}) {
     if (given(key)) take(key);
     if (inputs.has(key) && number(key) == 0) inputs.values.erase(key);
   }
@@ -385,7 +385,7 @@ CaseInputs Resolver::run() {
   take_unless_default("grains.rolling_friction");
   start();
   box();
-  smoothing();
+  lengths_or_none();
   drive();
   onset();
   take("record.every");

@@ -161,6 +161,7 @@ Scene scene_of(const CaseInputs& inputs) {
   scene.smoothing = {.xy = number_or_zero(inputs, "models.smoothing.xy"),
                      .z = number_or_zero(inputs, "models.smoothing.z")};
   scene.steps.fluid_interval = number_or_zero(inputs, "steps.fluid");
+  scene.frozen_depth = number_or_zero(inputs, "models.frozen_depth");
   scene.steps.beyond_limit = inputs.has("steps.beyond_limit");
   scene.record.every = inputs.number("record.every");
   scene.record.tracks = std::get<std::vector<std::uint64_t>>(inputs.values.at("record.tracks"));

@@ -22,8 +22,6 @@ std::string_view words_for(const std::string& source) {
 
 }   // namespace
 
-double BudgetEntry::size() const { return std::fmax(std::abs(difference), uncertainty); }
-
 void store_variations(Database& database, const std::vector<Case>& cases) {
   Database::Transaction transaction(database);
   database.execute("DELETE FROM variations");
@@ -36,35 +34,54 @@ void store_variations(Database& database, const std::vector<Case>& cases) {
 std::vector<BudgetEntry> error_budget(const Database& database) {
   std::vector<BudgetEntry> budget;
   if (!has_table(database, "error_budget")) return budget;
-  for (const auto& row :
-       database.query("SELECT source, label, difference, uncertainty FROM error_budget ORDER BY source").rows)
-    budget.push_back({text_in(row[0]), text_in(row[1]), number_in(row[2]), number_in(row[3])});
+  Differences all;
+  const auto rows = database.query(
+      "SELECT source, set_label, shields_base, base_lower, base_upper, shields_pair, pair_lower, pair_upper FROM "
+      "error_budget WHERE source IN ('bracket', 'hold', 'mesh', 'area') ORDER BY source, seed");
+  for (const auto& row : rows.rows) {
+    const std::string source = text_in(row[0]);
+    if (budget.empty() || budget.back().source != source) {
+      budget.push_back({.source = source, .label = text_in(row[1])});
+      all.emplace_back();
+    }
+    const auto single = log_ratio(number_in(row[2]), number_in(row[3]), number_in(row[4]), number_in(row[5]),
+                                  number_in(row[6]), number_in(row[7]));
+    if (std::isfinite(single.difference)) all.back().push_back(single), ++budget.back().packings;
+  }
+  const double pooled = pooled_deviation(all);
+  for (std::size_t n = 0; n < budget.size(); ++n) {
+    budget[n].theta = relative(paired(all[n], pooled));
+    budget[n].scatter_known = std::ranges::any_of(all, [](const auto& singles) { return singles.size() > 1; });
+  }
   return budget;
 }
 
 double systematic_error(const std::vector<BudgetEntry>& budget) {
-  const auto known = [](const BudgetEntry& e) { return std::isfinite(e.difference); };
-  if (std::ranges::none_of(budget, [&](const BudgetEntry& e) { return e.source == "mesh" && known(e); }))
+  if (std::ranges::none_of(budget, [](const BudgetEntry& e) { return e.source == "mesh" && e.packings > 0; }))
     return std::numeric_limits<double>::quiet_NaN();
   double squares = 0;
   for (const BudgetEntry& e : budget)
-    if (known(e)) squares += e.size() * e.size();
+    if (e.packings > 0) squares += e.theta.size() * e.theta.size();
   return std::sqrt(squares);
 }
 
 std::string budget_in_words(const std::vector<BudgetEntry>& budget) {
+  if (budget.empty()) return "mesh not tested";
   std::string text;
+  std::size_t packings = 0;
   for (const BudgetEntry& e : budget) {
     if (!text.empty()) text += ", ";
     text += std::string(words_for(e.source)) + " ";
-    if (!std::isfinite(e.difference)) text += "unknown (one of the pair is censored)";
-    else if (std::abs(e.difference) <= e.uncertainty) text += fmt::format("< {:.2g} %", 100 * e.uncertainty);
-    else text += fmt::format("{:+.2g} %", 100 * e.difference);
+    if (e.packings == 0) text += "unknown (one of each pair is censored)";
+    else if (!e.theta.seen()) text += fmt::format("< {:.2g} %", 100 * e.theta.uncertainty);
+    else text += fmt::format("{:+.2g} %", 100 * e.theta.mean);
+    packings = std::max(packings, e.packings);
   }
   const double together = systematic_error(budget);
   if (std::isfinite(together)) text += fmt::format("; together {:.2g} %", 100 * together);
-  else text += text.empty() ? "mesh not tested" : "; mesh not tested";
-  return budget.empty() ? text : fmt::format("{} (pairs of {})", text, budget.front().label);
+  else text += "; mesh not tested";
+  text += fmt::format(" ({} packing{} of {}", packings, packings == 1 ? "" : "s", budget.front().label);
+  return text + (budget.front().scatter_known ? ")" : ": how far it scatters is not known)");
 }
 
 }   // namespace bedload

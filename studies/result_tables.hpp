@@ -216,8 +216,9 @@ CREATE TABLE IF NOT EXISTS variations (            -- cases that differ from one
 ) STRICT;
 
 CREATE VIEW IF NOT EXISTS error_budget AS          -- per pair: theta_c of the variation relative to that of its case
-  SELECT v.name AS source, b.label, b.shields AS shields_base, p.shields AS shields_pair,
-         p.shields / b.shields - 1 AS difference,
+  SELECT v.name AS source, b.label, b.set_label, b.seed, b.shields AS shields_base, b.shields_lower AS base_lower,
+         b.shields_upper AS base_upper, p.shields AS shields_pair, p.shields_lower AS pair_lower,
+         p.shields_upper AS pair_upper, p.shields / b.shields - 1 AS difference,
          (b.shields_upper - b.shields_lower) / (b.shields_upper + b.shields_lower)
            + (p.shields_upper - p.shields_lower) / (p.shields_upper + p.shields_lower) AS uncertainty,
          v.base_id, v.case_id

@@ -208,7 +208,7 @@ class Unfolding {
   void add(const Choice&, const Variation* = nullptr, const std::string& base_id = {});
   void choose_settings(Settings&);
   void judge_distance(Case&);
-  void add_budget(const Choice&);
+  void add_budget(const std::vector<const Choice*>&);
   void add_trades(const std::vector<const Choice*>&);
 
   const Study& study_;
@@ -257,14 +257,22 @@ void Unfolding::add(const Choice& choice, const Variation* variation, const std:
   cases_.push_back(std::move(one));
 }
 
-/// One packing pays for all.
-void Unfolding::add_budget(const Choice& first) {
-  const auto pairs = budget_pairs(settings_of(study_, first), study_.budget);
-  if (!pairs.empty() && cases_.front().scene.onset.method != Onset::Method::bisect)
-    problems_.add(place_in(study_.settings, "onset.budget"),
-                  "onset.budget: a ramp is a screening and has no error budget", "onset.method = \"bisect\"");
-  for (const auto& pair : pairs)
-    if (problems_.empty()) add(first, &pair, cases_.front().id);
+/// Some packings of the first scene pay for all: seeds that any run of the study needs.
+void Unfolding::add_budget(const std::vector<const Choice*>& kept) {
+  std::vector<std::size_t> packings;
+  for (std::size_t n = 0; n < kept.size(); ++n)
+    if (cases_[n].set == cases_[0].set) packings.push_back(n);
+  std::ranges::sort(packings, {}, [&](std::size_t n) { return cases_[n].seed; });
+  const auto sure = study_.seeds.interval ? std::min(budget_packings, study_.seeds.batch) : budget_packings;
+  packings.resize(std::min(packings.size(), static_cast<std::size_t>(sure)));
+  for (const std::size_t n : packings)
+    for (const auto& pair : budget_pairs(settings_of(study_, *kept[n]), study_.budget)) {
+      if (cases_[n].scene.onset.method != Onset::Method::bisect)
+        return problems_.add(place_in(study_.settings, "onset.budget"),
+                             "onset.budget: a ramp is a screening and has no error budget",
+                             "onset.method = \"bisect\"");
+      if (problems_.empty()) add(*kept[n], &pair, cases_[n].id);
+    }
 }
 
 /// Every packing, each against itself.
@@ -288,7 +296,7 @@ std::vector<Case> Unfolding::all() {
     kept.push_back(&choice);
     add(choice);
   }
-  if (!kept.empty() && problems_.empty()) add_budget(*kept.front());
+  if (problems_.empty()) add_budget(kept);
   add_trades(kept);
   if (problems_.empty()) out_of_range_.report(problems_);
   check_twins(cases_, problems_);

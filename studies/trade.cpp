@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "studies/database_values.hpp"
+#include "studies/lone_fall.hpp"
 #include "studies/plan.hpp"
 #include "studies/study_keys.hpp"
 #include "studies/threshold_curve.hpp"
@@ -52,32 +53,25 @@ std::optional<Outcome> outcome_of(const Database& database, const std::string& i
   return found;
 }
 
-/// A difference of one packing, and the standard error that its two runs leave it.
-struct Single {
-  double difference, error;
-};
-using Measure = std::function<std::optional<Single>(const Outcome& finest, const Outcome& other)>;
+using Measure = std::function<std::optional<SingleDifference>(const Outcome& finest, const Outcome& other)>;
 
-/// The threshold lies anywhere in its bracket: a deviation of its half width over sqrt(3).
-std::optional<Single> theta_difference(const Outcome& finest, const Outcome& other) {
-  const double found = std::log(other.shields / finest.shields);
-  if (!std::isfinite(found)) return {};
-  const auto deviation = [](const Outcome& o) { return std::log(o.upper / o.lower) / (2 * std::sqrt(3.0)); };
-  return Single{found, std::hypot(deviation(finest), deviation(other))};
+std::optional<SingleDifference> theta_difference(const Outcome& finest, const Outcome& other) {
+  const auto found = log_ratio(finest.shields, finest.lower, finest.upper, other.shields, other.lower, other.upper);
+  return std::isfinite(found.difference) ? std::optional(found) : std::nullopt;
 }
 
-std::optional<Single> flux_difference(const Outcome& finest, const Outcome& other) {
+std::optional<SingleDifference> flux_difference(const Outcome& finest, const Outcome& other) {
   for (std::size_t k = std::min(finest.stairs.size(), other.stairs.size()); k-- > 0;) {
     const Stair &a = finest.stairs[k], &b = other.stairs[k];
     if (a.level == b.level && a.flux > 0)
-      return Single{b.flux / a.flux - 1, std::hypot(a.flux_error, b.flux_error) / a.flux};
+      return SingleDifference{b.flux / a.flux - 1, std::hypot(a.flux_error, b.flux_error) / a.flux};
   }
   return {};
 }
 
-std::optional<Single> first_stair(const Outcome& finest, const Outcome& other, double Stair::*what) {
+std::optional<SingleDifference> first_stair(const Outcome& finest, const Outcome& other, double Stair::*what) {
   if (finest.stairs.empty() || other.stairs.empty()) return {};
-  return Single{other.stairs[0].*what - finest.stairs[0].*what, 0};
+  return SingleDifference{other.stairs[0].*what - finest.stairs[0].*what, 0};
 }
 
 struct NamedMeasure {
@@ -95,42 +89,13 @@ const std::vector<NamedMeasure>& measures() {
   return all;
 }
 
-/// The singles of one measure, setting by setting.
-using Singles = std::vector<std::vector<Single>>;
-
-double mean_of(const std::vector<Single>& singles) {
-  double sum = 0;
-  for (const Single& s : singles) sum += s.difference;
-  return sum / static_cast<double>(singles.size());
-}
-
-/// Deviation of a packing's difference from the mean of its setting, over all settings: two packings alone say nothing of it.
-double pooled_deviation(const Singles& all) {
-  double squares = 0, freedom = 0;
-  for (const auto& singles : all) {
-    if (singles.size() < 2) continue;
-    const double mean = mean_of(singles);
-    for (const Single& s : singles) squares += (s.difference - mean) * (s.difference - mean);
-    freedom += static_cast<double>(singles.size() - 1);
-  }
-  return freedom > 0 ? std::sqrt(squares / freedom) : 0;
-}
-
-PairedDifference paired(const std::vector<Single>& singles, double pooled) {
-  if (singles.empty()) return {unknown, unknown};
-  const double n = static_cast<double>(singles.size());
-  double squares = 0;
-  for (const Single& s : singles) squares += s.error * s.error;
-  return {mean_of(singles), 2 * std::sqrt(squares / n + pooled * pooled) / std::sqrt(n)};
-}
-
 /// The packings of a setting, by the case of the finest one that each is compared with.
 using Packings = std::map<std::string, Outcome>;
 
 void compare(const std::vector<Packings>& outcomes, std::vector<TradeSetting>& settings) {
   const Packings& finest = outcomes.front();
   for (const auto& [member, of] : measures()) {
-    Singles all;
+    Differences all;
     for (const auto& packings : outcomes) {
       auto& singles = all.emplace_back();
       if (&packings == &finest) continue;
@@ -141,6 +106,7 @@ void compare(const std::vector<Packings>& outcomes, std::vector<TradeSetting>& s
     const double pooled = pooled_deviation(all);
     for (std::size_t n = 1; n < settings.size(); ++n) settings[n].*member = paired(all[n], pooled);
   }
+  for (TradeSetting& setting : settings) setting.theta = relative(setting.theta);
 }
 
 void mark_frontier(std::vector<TradeSetting>& settings) {
@@ -166,15 +132,13 @@ void add_case(const Database& database, const Case& one, Packings& packings, Tra
   const auto outcome = outcome_of(database, one.id);
   if (!outcome) return;
   packings[one.base_id.empty() ? one.id : one.base_id] = *outcome;
+  if (setting.packings == 0) setting.fall_speed = lone_fall_speed(one.scene);
   ++setting.packings;
   setting.core_seconds += outcome->core_seconds;
   setting.predicted_seconds += predicted_cost(one.scene).core_seconds;
 }
 
 }   // namespace
-
-bool PairedDifference::seen() const { return std::abs(mean) > uncertainty; }
-double PairedDifference::size() const { return std::fmax(std::abs(mean), uncertainty); }
 
 void refuse_without_trades(const Study& study) {
   if (study.trades.empty())

@@ -5,19 +5,10 @@
 #include <vector>
 
 #include "scheduler/database.hpp"
+#include "studies/paired_difference.hpp"
 #include "studies/study.hpp"
 
 namespace bedload {
-
-/// Mean over the packings of the difference to the finest setting, and how well it is known: two standard errors, from what
-/// the runs themselves leave open and from the spread of all paired differences of the trade. nan: not measured.
-struct PairedDifference {
-  double mean = 0, uncertainty = 0;
-  /// Whether it is more than noise; if not, `uncertainty` is a bound.
-  bool seen() const;
-  /// The error to reckon with: the difference, or its bound.
-  double size() const;
-};
 
 /// A setting beside the finest one.
 struct TradeSetting {
@@ -28,6 +19,7 @@ struct TradeSetting {
   PairedDifference flux;          // of the flux at the highest stair that both have climbed, relative [-]
   PairedDifference height;        // of the bed's surface at the end of the first stair [d]
   PairedDifference porosity;      // of the bed then [-]
+  double fall_speed = 0;          // of a lone grain in the setting's box (lone_fall); nan: none falls there [m/s]
   double core_seconds = 0;        // of one packing, mean
   double predicted_seconds = 0;   // what `plan` says of it without a trade, mean
   bool frontier = false;          // none is as cheap and as good in theta

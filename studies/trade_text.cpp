@@ -21,6 +21,12 @@ std::string difference_in_words(const PairedDifference& d, double unit, std::str
                   : fmt::format("< {:.2g}{}", scale * d.uncertainty, sign);
 }
 
+/// Of a fall, which no packing scatters.
+std::string fall_in_words(const TradeSetting& one, const TradeSetting& finest) {
+  const double difference = one.fall_speed / finest.fall_speed - 1;
+  return std::isfinite(difference) && &one != &finest ? fmt::format("{:+.2g}%", 100 * difference) : "-";
+}
+
 std::vector<const TradeSetting*> cheapest_first(const Trade& trade) {
   std::vector<const TradeSetting*> all;
   for (const TradeSetting& one : trade.settings) all.push_back(&one);
@@ -45,22 +51,24 @@ nlohmann::ordered_json as_json(const Settings& settings) {
 std::string trade_as_table(const Trade& trade) {
   std::size_t width = 7;
   for (const TradeSetting& one : trade.settings) width = std::max(width, one.name.size());
-  std::string text = fmt::format("  {:<{}} {:>8} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "setting", width, "packings",
-                                 "core s", "cost", "theta_c", "flux", "height/d", "porosity");
+  std::string text = fmt::format("  {:<{}} {:>8} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "setting", width,
+                                 "packings", "core s", "cost", "theta_c", "flux", "height/d", "porosity", "fall");
   const double finest = trade.settings.front().core_seconds;
   for (const TradeSetting* one : cheapest_first(trade)) {
     if (one->packings == 0) {
       text += fmt::format("  {:<{}} not run yet\n", one->name, width);
       continue;
     }
-    text += fmt::format("{} {:<{}} {:>8} {:>10.3g} {:>7.0f}% {:>9} {:>9} {:>9} {:>9}\n", one->frontier ? '*' : ' ',
-                        one->name, width, one->packings, one->core_seconds, 100 * one->core_seconds / finest,
-                        difference_in_words(one->theta, 0.01, "%"), difference_in_words(one->flux, 0.01, "%"),
-                        difference_in_words(one->height, 1, ""), difference_in_words(one->porosity, 1, ""));
+    text += fmt::format("{} {:<{}} {:>8} {:>10.3g} {:>7.0f}% {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+                        one->frontier ? '*' : ' ', one->name, width, one->packings, one->core_seconds,
+                        100 * one->core_seconds / finest, difference_in_words(one->theta, 0.01, "%"),
+                        difference_in_words(one->flux, 0.01, "%"), difference_in_words(one->height, 1, ""),
+                        difference_in_words(one->porosity, 1, ""), fall_in_words(*one, trade.settings.front()));
   }
   return text + fmt::format(
                     "differences to the finest setting, same beds, mean over the packings; < : not seen, two standard "
-                    "errors\n* no other setting is as cheap and as good in theta_c. core s: of one packing\n"
+                    "errors; fall: speed of a lone grain in the same box without bed\n* no other setting is as cheap "
+                    "and as good in theta_c. core s: of one packing\n"
                     "scene: Ga = {:.3g}, s = {:.3g}, theta_50 = {:.4f}\n",
                     trade.galileo, trade.density_ratio, trade.shields);
 }
@@ -74,6 +82,7 @@ std::string trade_as_json(const Trade& trade) {
                         {"core_seconds", one.core_seconds},
                         {"predicted_seconds", one.predicted_seconds},
                         {"frontier", one.frontier},
+                        {"lone_fall_m_per_s", one.fall_speed},
                         {"theta", as_json(one.theta)},
                         {"flux", as_json(one.flux)},
                         {"height_d", as_json(one.height)},

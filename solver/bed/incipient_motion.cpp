@@ -154,7 +154,7 @@ std::uint64_t count_moved(const Grains& grains) noexcept {
 }
 
 std::uint64_t count_moving(const Grains& grains, double speed_scale) noexcept {
-  const double limit = 0.01 * speed_scale;
+  const double limit = moving_speed(speed_scale);
   return static_cast<std::uint64_t>(
       std::count_if(grains.velocity.begin(), grains.velocity.end(), [&](Vec3 v) { return norm2(v) > limit * limit; }));
 }

@@ -50,6 +50,9 @@ std::uint64_t count_events(Grains&, std::span<const double> x_before, double per
 /// Number of grains that have gone d/2 downstream since the hold began, each counted once, wherever it is now.
 std::uint64_t count_moved(const Grains&) noexcept;
 
+/// Grains that are faster move [m/s].
+constexpr double moving_speed(double speed_scale) { return 0.01 * speed_scale; }
+
 /// Number of grains that are faster than 0.01 sqrt(|s-1| g d) [m/s].
 std::uint64_t count_moving(const Grains&, double speed_scale) noexcept;
 

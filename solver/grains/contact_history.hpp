@@ -22,4 +22,14 @@ struct ContactHistory {
   bool operator==(const ContactHistory&) const = default;
 };
 
+inline bool is_wall(std::uint32_t partner) { return partner >= static_cast<std::uint32_t>(Wall::x_low); }
+
+/// Contact `k` of another history, under these ids; they must come after those that are there.
+inline void append(ContactHistory& to, const ContactHistory& from, std::size_t k, std::uint32_t lower,
+                   std::uint32_t higher) {
+  to.lower.push_back(lower), to.higher.push_back(higher), to.spring.push_back(from.spring[k]);
+  if (!from.damping.empty()) to.damping.push_back(from.damping[k]);
+  if (!from.rolling.empty()) to.rolling.push_back(from.rolling[k]);
+}
+
 }   // namespace bedload

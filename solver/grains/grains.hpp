@@ -17,7 +17,7 @@ struct Grains {
   std::vector<Vec3> spin;                  // [rad/s]
   std::vector<double> diameter;            // [m]
   std::vector<double> density;             // [kg/m3]
-  std::vector<std::uint8_t> fixed;         // 1 = never moves
+  std::vector<std::uint8_t> fixed;         // 1 = never moves; 2 = not for now (bed/frozen_grains)
   std::vector<Vec3> mean_contact_force;    // [N], mean over the last fluid step (read by the next drag solve)
   std::vector<Vec3> mean_contact_torque;   // [N m], the same
   std::vector<std::uint8_t> moved;         // 1 = an event since the hold began (bed/incipient_motion)

@@ -79,14 +79,6 @@ class Cells {
   std::vector<std::uint32_t> start_, ids_;   // ids in order of cells, and where each cell's begin
 };
 
-void append(ContactHistory& to, const ContactHistory& from, std::size_t k, std::uint32_t lower, std::uint32_t higher) {
-  to.lower.push_back(lower), to.higher.push_back(higher), to.spring.push_back(from.spring[k]);
-  if (!from.damping.empty()) to.damping.push_back(from.damping[k]);
-  if (!from.rolling.empty()) to.rolling.push_back(from.rolling[k]);
-}
-
-bool is_wall(std::uint32_t partner) { return partner >= static_cast<std::uint32_t>(Wall::x_low); }
-
 bool moves(const std::vector<std::uint8_t>& free, std::uint32_t lower, std::uint32_t higher) {
   return free[lower] || (!is_wall(higher) && free[higher]);
 }

@@ -46,7 +46,12 @@ TEST(Examples, ThresholdsOfLaminarBedsSayWhereTheyAreOutOfRange) {
   const std::string lift = "the law of Saffman and Mei for shear_lift", bottom = "feels the flat bottom",
                     left_out = "models.terms leaves out what the rules want";
   for (const auto& [name, cases, picked, warnings] :
-       {Expected{"laminar-threshold", "20 cases (20 new", "d0.467mm-rho1500-area-s1 new 1200", {bottom, lift}},
+       {Expected{"laminar-threshold", "28 cases (28 new", "d0.467mm-rho1500-area-s3 new 1200", {bottom, lift}},
+        Expected{"laminar-few-terms", "16 cases (16 new", "d0.294mm-rho3000-s8 new 300", {bottom, left_out}},
+        Expected{"sensitivity-laminar",
+                 "33 cases (33 new",
+                 "sensitivity-laminar-stiff-s3 new 300",
+                 {bottom, lift, left_out, left_out}},
         Expected{"trade-laminar",
                  "38 cases (38 new",
                  "trade-laminar-dem0.45R-s2 new 300",
@@ -68,9 +73,18 @@ TEST(Examples, ThresholdsOfLaminarBedsSayWhereTheyAreOutOfRange) {
   }
 }
 
+TEST(Examples, ABeadLiesOnALayerOfEachKind) {
+  const auto plan = plan_of("bead-on-substrate");
+  EXPECT_EQ(plan.code, 0) << plan.err;
+  const auto said = unwrapped(plan.out);
+  EXPECT_NE(said.find("4 cases (4 new"), said.npos);
+  EXPECT_NE(said.find("filebead-on-triangles.csv-L6.92820323d-hz0.5d new 65"), said.npos);
+  EXPECT_NE(said.find("filebead-on-squares.csv-L8d-hz1d new 65"), said.npos);
+}
+
 // tau_b = 0.2 x 2000 x 9.81 x 0.001 = 3.924 Pa; over 10 mm of water that is a lid at 39 m/s.
 TEST(Examples, SeedErosionIsCalledUnphysicalInWater) {
-  for (const auto* name : {"seed-erosion", "seed-erosion-fine"}) {
+  for (const auto* name : {"seed-erosion", "seed-erosion-fine", "trade-seed"}) {
     const auto plan = plan_of(name);
     EXPECT_EQ(plan.code, 0) << plan.err;
     for (const auto* part : {"this laminar scene is not physical", "theta = 0.2 means a lid speed of 39.1 m/s",

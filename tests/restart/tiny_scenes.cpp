@@ -155,4 +155,12 @@ TinyScene sheared() {
   return {"sheared", scene};
 }
 
+TinyScene frozen_below() {
+  Scene scene = lid_driven().scene;
+  scene.frozen_depth = diameter;
+  scene.drive.levels = {0.05, 1.5};
+  validate(scene);
+  return {"frozen", scene};
+}
+
 }   // namespace bedload::test

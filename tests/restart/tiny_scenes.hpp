@@ -42,6 +42,9 @@ TinyScene search();
 /// The lid's bed, sheared and come to rest again before its ramp.
 TinyScene sheared();
 
+/// The lid's bed, of which what lies deep is frozen until it is scoured.
+TinyScene frozen_below();
+
 inline std::vector<TinyScene> tiny_scenes() {
   return {lid_driven(),
           stream_on_a_slope(),
@@ -52,7 +55,8 @@ inline std::vector<TinyScene> tiny_scenes() {
           layers(FluidRung::profile),
           layers(FluidRung::column),
           search(),
-          sheared()};
+          sheared(),
+          frozen_below()};
 }
 
 }   // namespace bedload::test

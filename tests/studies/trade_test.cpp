@@ -111,11 +111,13 @@ TEST_F(MeasuredTrade, ComparesEveryPackingWithItself) {
   EXPECT_EQ(finest.name, "finest");
   EXPECT_DOUBLE_EQ(finest.core_seconds, 110);
   EXPECT_EQ(finest.theta.size(), 0);
-  EXPECT_NEAR(mesh.theta.mean, std::log(1.1), 1e-12);
+  EXPECT_NEAR(mesh.theta.mean, 0.1, 1e-12);
   EXPECT_TRUE(mesh.theta.seen());
   // each end of a pair: half a bracket of 4 % over sqrt(3); two ends, two packings, two standard errors
   const double bracket = std::log(1.04) / (2 * std::sqrt(3.0));
-  EXPECT_NEAR(mesh.theta.uncertainty, 2 * std::sqrt(2.0) * bracket / std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(mesh.theta.uncertainty, 1.1 * 2 * std::sqrt(2.0) * bracket / std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(brief.fall_speed, finest.fall_speed) << "the same mesh and steps";
+  EXPECT_NE(mesh.fall_speed, finest.fall_speed);
   EXPECT_NEAR(mesh.flux.mean, 1, 1e-12);
   EXPECT_NEAR(mesh.height.mean, 0, 1e-12);
   EXPECT_NEAR(brief.theta.mean, 0, 1e-12);
@@ -144,7 +146,8 @@ TEST_F(MeasuredTrade, KnowsNoDifferenceBetterThanPackingsAgreeOnIt) {
   const TradeSetting mesh = measured_trade(database, study, cases).settings[1];
   const double pooled = std::log(1.2) / 2 * std::sqrt(2.0) / std::sqrt(2.0);   // two squares of half of it, two degrees
   const double bracket = std::log(1.04) / std::sqrt(6.0);
-  EXPECT_NEAR(mesh.theta.uncertainty, 2 * std::hypot(pooled, bracket) / std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(mesh.theta.mean, 1.1 * std::sqrt(1.2) - 1, 1e-12);
+  EXPECT_NEAR(mesh.theta.uncertainty, 1.1 * std::sqrt(1.2) * 2 * std::hypot(pooled, bracket) / std::sqrt(2.0), 1e-12);
 }
 
 TEST_F(MeasuredTrade, LeavesOutWhatHasNotRun) {

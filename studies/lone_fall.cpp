@@ -1,0 +1,71 @@
+#include "studies/lone_fall.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "solver/coupling/drag_laws.hpp"
+#include "solver/experiment.hpp"
+
+namespace bedload {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double let_go = 0.75, upper = 0.55, lower = 0.35;   // of the box's height
+
+/// The scene with one grain for its bed, at a place across [m], and no flow.
+Scene one_grain(const Scene& scene, double x, double y) {
+  Scene lone = scene;
+  lone.bed.source = {.kind = BedSource::Kind::file, .count = 1};
+  lone.bed.source.csv = fmt::format("x,y,z,diameter,density,fixed\n{},{},{},{},{},0\n", x, y,
+                                    let_go * scene.bed.length.z, scene.bed.grains.diameter, scene.bed.grains.density);
+  lone.bed.gravity = {0, 0, -norm(scene.bed.gravity)};
+  lone.drive = {.kind = FlowRamp::Kind::none};
+  lone.onset.method = Onset::Method::none;
+  lone.shear = {}, lone.frozen_depth = 0, lone.record.tracks.clear();
+  return lone;
+}
+
+/// The time that a fall takes through a level, between two steps [s].
+double passing(double level, double z_before, double z, double time_before, double time) {
+  return time_before + (z_before - level) / (z_before - z) * (time - time_before);
+}
+
+double fall_speed(Scene lone, double longest) {
+  lone.drive.dwell = longest, lone.record.every = longest;
+  if (!problems_of(lone).empty()) return unknown;
+  const double height = lone.bed.length.z;
+  Experiment experiment(lone);
+  State state = experiment.begin();
+  double entered = unknown;
+  while (!Experiment::finished(state)) {
+    const double z_before = state.grains.position[0].z, before = state.clock.time;
+    experiment.step(state);
+    const double z = state.grains.position[0].z, now = state.clock.time;
+    if (z_before >= upper * height && z < upper * height) entered = passing(upper * height, z_before, z, before, now);
+    if (z < lower * height)
+      return (upper - lower) * height / (passing(lower * height, z_before, z, before, now) - entered);
+  }
+  return unknown;
+}
+
+}   // namespace
+
+double lone_fall_speed(const Scene& scene) {
+  if (scene.bed.sides[2] == Side::periodic || scene.bed.grains.density <= scene.bed.fluid.density) return unknown;
+  const double g = norm(scene.bed.gravity), d = scene.bed.grains.diameter;
+  const double free =
+      terminal_speed(scene.drag, scene.bed.fluid.viscosity, scene.bed.grains.density / scene.bed.fluid.density, d, g);
+  if (!(free > 0)) return unknown;
+  const double longest = 10 * scene.bed.length.z / free;
+  double sum = 0;
+  for (const double i : {0.0, 0.5})
+    for (const double j : {0.0, 0.5})
+      sum += fall_speed(one_grain(scene, 0.5 * scene.bed.length.x + i * scene.grid.h.x,
+                                  0.5 * scene.bed.length.y + j * scene.grid.h.y),
+                        longest);
+  return sum / 4;
+}
+
+}   // namespace bedload
