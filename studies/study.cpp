@@ -296,6 +296,10 @@ std::vector<Case> Unfolding::all() {
     kept.push_back(&choice);
     add(choice);
   }
+  if (!study_.budget.empty() && !study_.trades.empty())
+    problems_.add(place_in(study_.settings, "onset.budget"),
+                  "onset.budget: this study has [[trade]], which measures such pairs for every packing",
+                  "leave one of the two out");
   if (problems_.empty()) add_budget(kept);
   add_trades(kept);
   if (problems_.empty()) out_of_range_.report(problems_);

@@ -63,6 +63,14 @@ TEST(ErrorBudget, IsNotOfARamp) {
                    "onset.budget: a ramp is a screening and has no error budget"));
 }
 
+TEST(ErrorBudget, IsNotOfATrade) {
+  auto text = with(good_study, "diameter = [\"0.5 mm\", \"0.6 mm\"]", "diameter = \"0.5 mm\"");
+  text = with(text, "density = [\"2000 kg/m3\", \"3000 kg/m3\"]", "density = \"2000 kg/m3\"");
+  text = with(text, "[drive]", "[onset]\nmethod = \"bisect\"\nbudget = \"auto\"\n[drive]");
+  EXPECT_EQ(complaint(text), "");
+  EXPECT_TRUE(says(complaint(text + "[[trade]]\nbox.cell.z = \"1 d\"\n"), "onset.budget: this study has [[trade]]"));
+}
+
 class BudgetOfResults : public ::testing::Test {
  protected:
   BudgetOfResults() {
