@@ -38,7 +38,7 @@ Coupler::Layers::Layers(const Scene& given)
       column(column_of(given)),
       area(given.bed.length.x * given.bed.length.y),
       fluid(column),
-      shear_(static_cast<std::size_t>(column.layers)) {}
+      held_back(static_cast<std::size_t>(column.layers), 1) {}
 
 std::span<double> Coupler::Layers::profile(State& state) const {
   return {&state.fluid.velocity.x[grid.index(0, 0, 0)], static_cast<std::size_t>(column.layers)};
@@ -49,14 +49,17 @@ void Coupler::Layers::step(State& state, double longest) {
   sample_at_grains(state);
   const double dt = choose_step(state, longest);
   predict_grains(state, dt);
+  if (scene.terms.viscous_torque) predict_spins(state, dt);
   {
     Stopwatch watch(times.drag);
     advance_fluid(state, dt);
     feel_end_of_step(state);
     book_exchange(state, dt);
+    if (scene.terms.viscous_torque) turn_grains(state, dt);
   }
   move_grains(state, dt);
-  if (!failed()) displace_fluid(state);
+  if (scene.terms.added_mass && health.substeps > 0) book_liquid(state.grains);
+  if (!failed()) displace_fluid(state, dt);
   health.finite &= all_finite(profile(state), state.grains);
 }
 
@@ -92,19 +95,16 @@ void Coupler::Layers::sample_at_grains(State& state) {
   for (std::size_t p = 0; p < count; ++p) stress_before_[p] = flow.acceleration[p].x;
   health.void_clamps = flow.void_clamps;
   if (!wants_vorticity()) return;
-  const double h = column.thickness;
-  for (std::size_t k = 0; k < u.size(); ++k) {   // between the edges of a layer; at a wall from its own speed
-    const double below = k > 0 ? 0.5 * (u[k - 1] + u[k]) : 0;
-    const double above = k + 1 < u.size()         ? 0.5 * (u[k] + u[k + 1])
-                         : column.top == Top::lid ? state.search.lid_speed
-                                                  : u[k];
-    shear_[k] = (above - below) / h;
-  }
-  flow.vorticity.assign(count, {});
-  for (std::size_t p = 0; p < count; ++p) flow.vorticity[p].y = sample(slices, p, shear_);
+  sample_vorticity(state);
   add_explicit_forces({grid, PeriodicBox(scene.bed), column.viscosity, state.search.lid_speed}, grains, scene.terms,
                       sheltering, flow);
   health.lift_clamps = flow.lift_clamps;
+}
+
+void Coupler::Layers::sample_vorticity(State& state) {
+  fluid.find_shear(profile(state), state.search.lid_speed, shear_);
+  flow.vorticity.assign(state.grains.size(), {});
+  for (std::size_t p = 0; p < flow.vorticity.size(); ++p) flow.vorticity[p].y = sample(slices, p, shear_);
 }
 
 /// What acts on the volume of grains: drive and viscous stress.
@@ -114,7 +114,7 @@ void Coupler::Layers::sample_stress(std::span<const double> divergence, const St
     flow.acceleration[p].x = driven + sample(slices, p, divergence);
 }
 
-/// The flow at the grains at the end of the step, and its stress in the place of what the prediction took it for.
+/// The flow at the grains at the end of the step, the liquid that it leaves to them, and its stress in the place of what the prediction took it for.
 void Coupler::Layers::feel_end_of_step(State& state) {
   const Grains& grains = state.grains;
   const std::span<const double> u = profile(state);
@@ -124,6 +124,21 @@ void Coupler::Layers::feel_end_of_step(State& state) {
     if (!grains.fixed[p] && !model_b())
       push[p].x += scene.bed.fluid.density / grains.density[p] * (flow.acceleration[p].x - stress_before_[p]);
   }
+  if (!scene.terms.added_mass) return;
+  carried_mass.resize(grains.size());
+  for (std::size_t p = 0; p < grains.size(); ++p)
+    carried_mass[p] = scene.bed.fluid.density * added_volume[p] * sample(slices, p, held_back);
+}
+
+/// Torques by the flow at the end of the step. Fluid at rest across it holds spins about x and z.
+void Coupler::Layers::turn_grains(State& state, double dt) {
+  sample_vorticity(state);
+  for (std::size_t p = 0; p < state.grains.size(); ++p) book_torque(state.grains, p, 0.5 * flow.vorticity[p], dt);
+}
+
+void Coupler::Layers::book_liquid(const Grains& grains) {
+  for (std::size_t p = 0; p < grains.size(); ++p)
+    if (!grains.fixed[p]) books.on_grains -= force_on_liquid(grains, p);
 }
 
 std::span<const double> Coupler::ColumnRung::stress_divergence(const State& state, std::span<const double> u) {
@@ -141,8 +156,20 @@ void Coupler::ColumnRung::advance_fluid(State& state, double dt) {
     return sum * column.thickness;
   };
   const double flux_before = flux();
-  find_exchange(column, slices, {flow.drag, relaxation, ballistic, flow.force}, area, exchange_);
+  const bool added_mass = scene.terms.added_mass;
+  if (added_mass) {
+    answer_ = flow.drag;
+    for (std::size_t p = 0; p < answer_.size(); ++p) answer_[p] += added_volume[p] / dt * Vec3{1, 1, 1};
+  }
+  find_exchange(column, slices, {added_mass ? answer_ : flow.drag, relaxation, ballistic, flow.force}, area, exchange_);
+  if (added_mass)
+    add_added_mass(column, state.grains, slices, {added_volume, flow.velocity, relaxation}, u, area, dt, exchange_,
+                   along_);
+  if (scene.terms.viscous_torque) find_couples(column, slices, spin_strength, spin_target, area, dt, exchange_);
   fluid.step(u, solid, exchange_, {.acceleration = gradient, .lid_speed = lid}, dt);
+  if (added_mass)   // liquid goes along with grains that others push by the part A/(eps + A)
+    for (std::size_t k = 0; k < held_back.size(); ++k)
+      held_back[k] = fluid.void_fraction()[k] / (fluid.void_fraction()[k] + along_[k]);
   const ColumnBooks& b = fluid.books();
   books.on_bottom.x = rho * area * b.on_bottom, books.on_lid.x = rho * area * b.on_lid;
   books.driving.x = rho * scene.bed.length.z * area * gradient;
@@ -150,9 +177,25 @@ void Coupler::ColumnRung::advance_fluid(State& state, double dt) {
   books.by_gradient = rho * area * gradient * 0.5 * (flux_before + flux());
 }
 
-void Coupler::ColumnRung::displace_fluid(State& state) {
+/// The liquid's part of what contacts have done that the solve did not know of, by layer as much as goes along there: so that
+/// nowhere it overtakes the grains that push it. With the weights of the step's start, as the grains' inertia had them.
+void Coupler::ColumnRung::push_liquid(State& state, double dt) {
+  const Grains& grains = state.grains;
+  const std::span<double> u = profile(state);
+  const std::span<const double> eps = fluid.void_fraction();
+  const double per_mass = dt / (scene.bed.fluid.density * area * column.thickness);
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    if (grains.fixed[p]) continue;
+    const double impulse = per_mass * force_on_liquid(grains, p).x / sample(slices, p, held_back);
+    for (std::size_t n = slices.begin[p], k = slices.first[p]; n < slices.begin[p + 1]; ++n, ++k)
+      u[k] += impulse * slices.part[n] * held_back[k] / eps[k];
+  }
+}
+
+void Coupler::ColumnRung::displace_fluid(State& state, double dt) {
   Stopwatch watch(times.transport);
   if (health.substeps == 0) return;
+  if (scene.terms.added_mass) push_liquid(state, dt);
   find_slices(column, state.grains, slices);
   average_grains(column, state.grains, slices, area, moved_solid_);
   fluid.carry(profile(state), solid.fraction, moved_solid_.fraction);

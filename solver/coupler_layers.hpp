@@ -25,6 +25,8 @@ class Coupler::Layers : public Rung {
   ColumnFlow fluid;
   GrainSlices slices;
   SolidLayers solid;
+  /// By layer: of added mass, what does not go along with the grains; all of it where the flow is given [-].
+  std::vector<double> held_back;
 
   /// u of all layers, as it stands in the state.
   std::span<double> profile(State&) const;
@@ -34,13 +36,16 @@ class Coupler::Layers : public Rung {
   virtual std::span<const double> stress_divergence(const State&, std::span<const double> u) = 0;
   /// The fluid goes on to the end of the step; where it does not answer, it stays. Books what walls and drive exchange with it.
   virtual void advance_fluid(State&, double dt) = 0;
-  /// What the grains' motion displaces.
-  virtual void displace_fluid(State&) = 0;
+  /// What the grains' motion displaces and carries along.
+  virtual void displace_fluid(State&, double dt) = 0;
 
   void place_in_layers(const Grains&);
   void sample_at_grains(State&);
   void sample_stress(std::span<const double> divergence, const State&);
+  void sample_vorticity(State&);
   void feel_end_of_step(State&);
+  void turn_grains(State&, double dt);
+  void book_liquid(const Grains&);
 
   std::vector<double> shear_;           // du/dz of each layer [1/s]
   std::vector<double> stress_before_;   // by id: the acceleration that the prediction has met [m/s2]
@@ -54,9 +59,13 @@ class Coupler::ColumnRung final : public Layers {
  private:
   std::span<const double> stress_divergence(const State&, std::span<const double> u) override;
   void advance_fluid(State&, double dt) override;
-  void displace_fluid(State&) override;
+  void displace_fluid(State&, double dt) override;
+
+  void push_liquid(State&, double dt);
 
   LayerExchange exchange_;
+  std::vector<Vec3> answer_;    // by id: (beta T + m_a)/T [m3/s]
+  std::vector<double> along_;   // by layer: added mass per volume and fluid density [-]
   SolidLayers moved_solid_;
 };
 
@@ -68,7 +77,7 @@ class Coupler::ProfileRung final : public Layers {
  private:
   std::span<const double> stress_divergence(const State&, std::span<const double> u) override;
   void advance_fluid(State&, double dt) override;
-  void displace_fluid(State&) override {}
+  void displace_fluid(State&, double) override {}
 
   const SolidLayers no_solid_;   // the stress is that of the flow as if no grain stood in it
 };

@@ -34,6 +34,12 @@ void Coupler::Rung::move_grains(State& state, double dt) {
   health.lost_grain |= health.grain_travel >= 1;   // more than the charge-conserving deposit can carry
 }
 
+/// Of a contact force that the drag solve did not know of, what moves the grain's liquid [N].
+Vec3 Coupler::Rung::force_on_liquid(const Grains& grains, std::size_t p) const {
+  const double part = carried_mass[p] / (scene.bed.fluid.density * specific_mass(grains, p) + carried_mass[p]);
+  return part * (grains.mean_contact_force[p] - contact_before[p]);
+}
+
 /// The flux that transport needs, then everything that belongs to x^{n+1}.
 void Coupler::Parts::deposit_at_new_positions(const State& state, double dt) {
   Stopwatch watch(times.deposit);
@@ -80,8 +86,7 @@ void Coupler::Parts::carry_liquid(State& state, double dt) {
   woven.clear(stencils.reach);
   for (std::size_t p = 0; p < grains.size(); ++p) {
     if (grains.fixed[p]) continue;
-    const double part = carried_mass[p] / (rho * specific_mass(grains, p) + carried_mass[p]);
-    const Vec3 on_liquid = part * (grains.mean_contact_force[p] - contact_before[p]);
+    const Vec3 on_liquid = force_on_liquid(grains, p);
     deposit(Weights(stencils[p]), stride, quad(dt / (rho * grid.cell_volume()) * on_liquid), woven.at(stencils[p]));
     books.on_grains -= on_liquid;
   }

@@ -81,6 +81,7 @@ class Coupler::Rung {
   void book_exchange(const State&, double dt);
   void book_torque(const Grains&, std::size_t grain, Vec3 turn, double dt);
   void move_grains(State&, double dt);
+  Vec3 force_on_liquid(const Grains&, std::size_t grain) const;
 
  private:
   int limit_by_grains(const State&, double& step);

@@ -244,8 +244,7 @@ void check_steps(const Scene& scene, Found& found) {
 }   // namespace
 
 bool carries(FluidRung rung, bool Terms::*term) {
-  constexpr bool Terms::*of_the_box[] = {&Terms::self_disturbance, &Terms::added_mass, &Terms::viscous_torque,
-                                         &Terms::wall_forces};
+  constexpr bool Terms::*of_the_box[] = {&Terms::self_disturbance, &Terms::wall_forces};
   return rung == FluidRung::box || std::ranges::find(of_the_box, term) == std::end(of_the_box);
 }
 

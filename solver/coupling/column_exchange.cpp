@@ -77,6 +77,37 @@ void find_exchange(const Column& column, const GrainSlices& slices, const GrainR
   }
 }
 
+/// m_a [(u_p - v) + (u_k - u_p)/(1 + a)]/T on slice k: with the second part whole, each step would raise what varies over a
+/// grain's height by (eps + A)/(eps + A/(1 + a)).
+void add_added_mass(const Column& column, const Grains& grains, const GrainSlices& slices, const AddedMass& added,
+                    std::span<const double> u, double area, double dt, LayerExchange& out, std::vector<double>& along) {
+  const double per_volume = 1 / layer_volume(column, area);
+  along.assign(static_cast<std::size_t>(column.layers), 0);
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const double share = per_volume * added.volume[p], at_grain = added.flow[p].x;
+    const double slip = at_grain - (grains.fixed[p] ? 0 : grains.velocity[p].x);
+    const double answer = 1 / (1 + added.relaxation[p].x);
+    for_each_slice(slices, p, [&](std::size_t k, double part) {
+      along[k] += part * share;
+      out.pull[k] += part * share / dt * (slip + answer * (u[k] - at_grain));
+    });
+  }
+}
+
+void find_couples(const Column& column, const GrainSlices& slices, std::span<const Vec3> strength,
+                  std::span<const Vec3> target, double area, double dt, LayerExchange& out) {
+  const auto layers = static_cast<std::size_t>(column.layers);
+  const double per_time = 1 / (layer_volume(column, area) * dt);
+  out.turn_rate.assign(layers, 0), out.turn_pull.assign(layers, 0);
+  for (std::size_t p = 0; p < slices.first.size(); ++p) {
+    const double rate = per_time * strength[p].y, pull = rate * target[p].y;
+    for_each_slice(slices, p, [&](std::size_t k, double part) {
+      out.turn_rate[k] += part * rate;
+      out.turn_pull[k] += part * pull;
+    });
+  }
+}
+
 void find_forces(const GrainSlices& slices, const GrainResponse& response, std::span<const double> u,
                  std::vector<double>& out) {
   out.resize(slices.first.size());

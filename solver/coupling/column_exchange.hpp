@@ -37,6 +37,21 @@ struct GrainResponse {
 /// Deposits drag/(1 + a) (u - vt) + force with the grains' slices: rate and pull of every layer.
 void find_exchange(const Column&, const GrainSlices&, const GrainResponse&, double area, LayerExchange&);
 
+/// What added mass adds to that, by id: the fluid's increments as well as the grains' resist.
+struct AddedMass {
+  std::span<const double> volume;     // m_a = C_A V_p [m3]
+  std::span<const Vec3> flow;         // u^n at the grains, as sampled [m/s]
+  std::span<const Vec3> relaxation;   // a, m_a in it [-]
+};
+/// The part of the force that the flow u^n of the step's start has, into the pull of every layer: each slice answers to the u^n of its own
+/// layer, as it does to u at the end. Leaves sum m_a/(A h) of every layer in `along` [-].
+void add_added_mass(const Column&, const Grains&, const GrainSlices&, const AddedMass&, std::span<const double> u,
+                    double area, double dt, LayerExchange& out, std::vector<double>& along);
+
+/// Deposits the couples c' (curl u/2 - omega_t) about y, of `strength` = T c'_p [m5] and `target` = omega_t,p [rad/s] by id.
+void find_couples(const Column&, const GrainSlices&, std::span<const Vec3> strength, std::span<const Vec3> target,
+                  double area, double dt, LayerExchange& out);
+
 /// Force on each grain along x, per rho_f [m4/s2], of the flow u at the end of the step: what find_exchange() took from the
 /// layers, to rounding. The viscous stress on the grain's volume comes on top (ColumnFlow::stress_divergence).
 void find_forces(const GrainSlices&, const GrainResponse&, std::span<const double> u, std::vector<double>& out);

@@ -32,7 +32,8 @@ ColumnFlow::ColumnFlow(const Column& given) : column_(given) {
   const auto n = static_cast<std::size_t>(column_.layers);
   for (auto* of_layers : {&void_, &void_after_, &stress_divergence_, &lower_, &diagonal_, &upper_, &change_})
     of_layers->assign(n, 0);
-  for (auto* of_edges : {&conductance_, &eddies_, &square_of_length_, &viscous_, &stress_}) of_edges->assign(n + 1, 0);
+  for (auto* of_edges : {&conductance_, &eddies_, &turning_, &square_of_length_, &viscous_, &stress_})
+    of_edges->assign(n + 1, 0);
   std::fill(conductance_.begin(), conductance_.end(), column_.viscosity / column_.thickness);
   conductance_.front() *= 2;   // half a layer to the wall
   conductance_.back() *= column_.top == Top::lid ? 2 : 0;
@@ -46,9 +47,20 @@ void ColumnFlow::measure(std::span<const double> u, const SolidLayers& solid, do
   find_stress_divergence(solid);
 }
 
+void ColumnFlow::find_shear(std::span<const double> u, double lid_speed, std::vector<double>& out) const {
+  const double h = column_.thickness;
+  out.resize(u.size());
+  for (std::size_t k = 0; k < u.size(); ++k) {
+    const double below = k > 0 ? 0.5 * (u[k - 1] + u[k]) : 0;
+    const double above = k + 1 < u.size() ? 0.5 * (u[k] + u[k + 1]) : column_.top == Top::lid ? lid_speed : u[k];
+    out[k] = (above - below) / h;
+  }
+}
+
 void ColumnFlow::step(std::span<double> u, const SolidLayers& solid, const LayerExchange& exchange,
                       const ColumnDrive& drive, double dt) {
   measure(u, solid, drive.lid_speed);
+  if (!exchange.turn_rate.empty()) add_couples(u, exchange, drive.lid_speed);
   assemble(u, exchange, drive, dt);
   solve();
   // Stresses at the end of the step; those of eddies are linear about its start.
@@ -57,7 +69,7 @@ void ColumnFlow::step(std::span<double> u, const SolidLayers& solid, const Layer
     const double void_above = e < u.size() ? void_[e] : 0, void_below = e > 0 ? void_[e - 1] : 0;
     const double viscous = conductance_[e] * (void_above * above - void_below * below);
     viscous_[e] += viscous;
-    stress_[e] += viscous + 2 * eddies_[e] * (above - below);
+    stress_[e] += viscous + (2 * eddies_[e] + turning_[e]) * (above - below);
   }
   for (std::size_t k = 0; k < u.size(); ++k) u[k] += change_[k];
   find_stress_divergence(solid);
@@ -130,13 +142,28 @@ void ColumnFlow::find_stress_divergence(const SolidLayers& solid) {
   }
 }
 
+/// Couples act on the fluid as half of their own as stress, with the transpose of find_shear(): on an edge the mean of the layers
+/// beside it, on a wall that of the outermost layer, on a free surface none. So no edge gives what another does not take.
+void ColumnFlow::add_couples(std::span<const double> u, const LayerExchange& exchange, double lid_speed) {
+  const std::size_t n = u.size();
+  const double h = column_.thickness;
+  for (std::size_t e = 0; e <= n; ++e) {
+    const bool wall = e == 0 || e == n;
+    if (e == n && column_.top != Top::lid) continue;
+    const std::size_t low = e > 0 ? e - 1 : 0, high = std::min(e, n - 1);
+    const double slip = (e < n ? u[e] : lid_speed) - (e > 0 ? u[e - 1] : 0), stretch = wall ? 0.5 * h : h;
+    turning_[e] = 0.125 * (exchange.turn_rate[low] + exchange.turn_rate[high]) / stretch;
+    stress_[e] += turning_[e] * slip - 0.25 * (exchange.turn_pull[low] + exchange.turn_pull[high]);
+  }
+}
+
 /// The system for the change of u, each row that of a layer times h: on its right what the flow found would gain in dt. An
 /// eddy stress l^2 |S| S has twice its own coefficient as slope: with one less, as if nu_t stood still, thin layers would ring.
 void ColumnFlow::assemble(std::span<const double> u, const LayerExchange& exchange, const ColumnDrive& drive,
                           double dt) {
   const double h = column_.thickness;
   for (std::size_t k = 0; k < u.size(); ++k) {
-    const double eps = void_[k], below = 2 * eddies_[k], above = 2 * eddies_[k + 1];
+    const double eps = void_[k], below = 2 * eddies_[k] + turning_[k], above = 2 * eddies_[k + 1] + turning_[k + 1];
     const double viscous = viscous_[k + 1] - viscous_[k], all = stress_[k + 1] - stress_[k];
     diagonal_[k] =
         eps * h / dt + eps * eps * (conductance_[k] + conductance_[k + 1]) + below + above + exchange.rate[k] * h;

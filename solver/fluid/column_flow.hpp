@@ -31,10 +31,13 @@ struct SolidLayers {
 };
 
 /// What grains take from the fluid by drag: rate u - pull [m/s2], the force per volume of layer and fluid density; one entry per
-/// layer. Drag beta (u - v) has the rate beta/(rho_f A h) and the target v = pull/rate.
+/// layer. Drag beta (u - v) has the rate beta/(rho_f A h) and the target v = pull/rate. Grains that turn against the fluid take a couple
+/// turn_rate (du/dz)/2 - turn_pull besides, per volume and fluid density; empty: none.
 struct LayerExchange {
-  std::vector<double> rate;   // [1/s], >= 0
-  std::vector<double> pull;   // [m/s2]
+  std::vector<double> rate;             // [1/s], >= 0
+  std::vector<double> pull;             // [m/s2]
+  std::vector<double> turn_rate = {};   // [m2/s], >= 0
+  std::vector<double> turn_pull = {};   // [m2/s2]
 };
 
 struct ColumnDrive {
@@ -47,7 +50,7 @@ struct ColumnDrive {
 struct ColumnBooks {
   double gained = 0;      // of sum eps u h
   double driving = 0;     // what drives the fluid
-  double on_bottom = 0;   // stress on the bottom, viscous and of eddies: u*^2 of a bare one
+  double on_bottom = 0;   // stress on the bottom, viscous, of eddies and of couples: u*^2 of a bare one
   double on_lid = 0;      // the same on the lid
   double on_grains = 0;   // by drag, and by the viscous stress that acts on their volume
 };
@@ -63,6 +66,9 @@ class ColumnFlow {
   /// Neither viscosity nor exchange bounds dt. Grains stand still meanwhile; carry() answers to their moving.
   void step(std::span<double> u, const SolidLayers&, const LayerExchange&, const ColumnDrive&, double dt);
 
+  /// du/dz of every layer [1/s], the difference between its edges; at a wall from the wall's own speed.
+  void find_shear(std::span<const double> u, double lid_speed, std::vector<double>& out) const;
+
   /// Stresses of a flow as it stands, without a step: what stress_divergence(), stress() and clamps() tell of it next.
   void measure(std::span<const double> u, const SolidLayers&, double lid_speed);
 
@@ -73,7 +79,9 @@ class ColumnFlow {
   /// Of the last step or measure(), by layer [m/s2]: d/dz of the viscous stress per fluid density, of which a grain feels its volume times;
   /// where eps is clamped, the part of it that is left to the solid.
   std::span<const double> stress_divergence() const { return stress_divergence_; }
-  /// Of the same, at the edges z_0..z_n [m2/s2]: viscous stress plus that of eddies, per fluid density.
+  /// Of the same, eps of every layer, as clamped [-].
+  std::span<const double> void_fraction() const { return void_; }
+  /// Of the same, at the edges z_0..z_n [m2/s2]: viscous stress plus that of eddies, and of couples in a step, per fluid density.
   std::span<const double> stress() const { return stress_; }
   const ColumnBooks& books() const { return books_; }
   /// Layers whose eps was clamped in it.
@@ -85,6 +93,7 @@ class ColumnFlow {
   void find_lengths(std::span<const double> solid_fraction, double lid_slip);
   void find_stress(std::span<const double> u, const SolidLayers&, double lid_speed);
   void find_stress_divergence(const SolidLayers&);
+  void add_couples(std::span<const double> u, const LayerExchange&, double lid_speed);
   void assemble(std::span<const double> u, const LayerExchange&, const ColumnDrive&, double dt);
   void solve();
   void book(std::span<const double> u, const SolidLayers&, const LayerExchange&, const ColumnDrive&, double dt);
@@ -96,6 +105,7 @@ class ColumnFlow {
   std::vector<double> lower_, diagonal_, upper_, change_;       // layers: the tridiagonal system and its solution
   std::vector<double> conductance_;                             // edges: nu over the distance of what it joins [m/s]
   std::vector<double> eddies_;                                  // edges: the same of eps nu_t
+  std::vector<double> turning_;                                 // edges: the same of grains that turn against the flow
   std::vector<double> square_of_length_;                        // edges: l^2 [m2]
   std::vector<double> viscous_, stress_;                        // edges: stresses per fluid density [m2/s2]
   std::vector<TurbulentSurface> lid_;

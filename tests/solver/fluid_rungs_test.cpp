@@ -93,35 +93,46 @@ TEST(FluidRungs, ColumnAndBoxAgreeOverAFixedBedInLaminarFlow) {
   report("column", column), report("profile", profile);
 }
 
+struct Drive {
+  FlowRamp::Kind kind;
+  bool added_mass, viscous_torque;
+};
+class MomentumOfAColumn : public testing::TestWithParam<Drive> {};
+INSTANTIATE_TEST_SUITE_P(FluidRungs, MomentumOfAColumn,
+                         testing::Values(Drive{FlowRamp::Kind::lid, false, false},
+                                         Drive{FlowRamp::Kind::pressure, false, false},
+                                         Drive{FlowRamp::Kind::lid, true, false},
+                                         Drive{FlowRamp::Kind::lid, false, true},
+                                         Drive{FlowRamp::Kind::pressure, true, true}));
+
 /// Free grains that collide in a flow that throws them about: every step's books close.
-TEST(FluidRungs, AColumnAndItsGrainsMakeNoMomentum) {
-  for (const FlowRamp::Kind kind : {FlowRamp::Kind::lid, FlowRamp::Kind::pressure}) {
-    Scene scene = sheared(FluidRung::column, 1.5, fixed_bed(0), in_bed);
-    scene.drive.kind = kind;
-    scene.terms.shear_lift = scene.terms.turbulence = true;
-    scene.drive.dwell = 200 * scene.steps.fluid_interval;
-    Experiment experiment(scene);
-    State state = experiment.begin();
-    MixtureMomentum momentum(scene);
-    experiment.step(state);   // imposes the flow
-    double moved = 0, size = 0, worst = 0;
-    while (!Experiment::finished(state)) {
-      const double before = momentum(state, 0).total, time = state.clock.time;
-      const auto x = state.grains.position;
-      ASSERT_EQ(ailment(experiment.step(state)), "");
-      const StepBooks& books = experiment.coupler().books();
-      const double force = books.driving.x - books.on_bottom.x - books.on_lid.x - books.contact_on_walls.x;
-      const double after = momentum(state, 0).total;
-      worst = std::max(worst, std::abs(after - before - (state.clock.time - time) * force));
-      size = std::max({size, std::abs(before), std::abs(after)});
-      for (std::size_t p = 0; p < x.size(); ++p) moved = std::max(moved, std::abs(state.grains.position[p].z - x[p].z));
-    }
-    EXPECT_GT(moved, 1e-4 * d);
-    EXPECT_LT(worst, 1e-11 * size);
-    ASSERT_FALSE(state.record.holds.momentum_residual.empty());
-    EXPECT_GE(state.record.holds.momentum_residual[0], 0);
-    EXPECT_LT(state.record.holds.momentum_residual[0], 1e-8);
+TEST_P(MomentumOfAColumn, IsThatOfItsGrainsAndWallsToo) {
+  Scene scene = sheared(FluidRung::column, 1.5, fixed_bed(0), in_bed);
+  scene.drive.kind = GetParam().kind;
+  scene.terms.shear_lift = scene.terms.turbulence = true;
+  scene.terms.added_mass = GetParam().added_mass, scene.terms.viscous_torque = GetParam().viscous_torque;
+  scene.drive.dwell = 200 * scene.steps.fluid_interval;
+  Experiment experiment(scene);
+  State state = experiment.begin();
+  MixtureMomentum momentum(scene);
+  experiment.step(state);   // imposes the flow
+  double moved = 0, size = 0, worst = 0;
+  while (!Experiment::finished(state)) {
+    const double before = momentum(state, 0).total, time = state.clock.time;
+    const auto x = state.grains.position;
+    ASSERT_EQ(ailment(experiment.step(state)), "");
+    const StepBooks& books = experiment.coupler().books();
+    const double force = books.driving.x - books.on_bottom.x - books.on_lid.x - books.contact_on_walls.x;
+    const double after = momentum(state, 0).total;
+    worst = std::max(worst, std::abs(after - before - (state.clock.time - time) * force));
+    size = std::max({size, std::abs(before), std::abs(after)});
+    for (std::size_t p = 0; p < x.size(); ++p) moved = std::max(moved, std::abs(state.grains.position[p].z - x[p].z));
   }
+  EXPECT_GT(moved, 1e-4 * d);
+  EXPECT_LT(worst, 1e-11 * size);
+  ASSERT_FALSE(state.record.holds.momentum_residual.empty());
+  EXPECT_GE(state.record.holds.momentum_residual[0], 0);
+  EXPECT_LT(state.record.holds.momentum_residual[0], 1e-8);
 }
 
 TEST(FluidRungs, AProfileDoesNotAnswerToGrainsAndSaysThatItsMomentumIsNotKnown) {
@@ -136,6 +147,73 @@ TEST(FluidRungs, AProfileDoesNotAnswerToGrainsAndSaysThatItsMomentumIsNotKnown) 
   EXPECT_EQ(state.fluid, imposed);
   EXPECT_LT(state.record.holds.momentum_residual.at(0), 0);
   EXPECT_DOUBLE_EQ(plane_means(state.fluid.velocity.x, scene.grid).front(), 0);   // deep in the bed
+}
+
+/// One weightless grain in the middle of 20 x 20 x 20 d of layers of d/5.
+struct Alone {
+  Alone(FluidRung rung, Top top, double viscosity)
+      : scene(fluid_scene({1, 1, 100}, {20 * d, 20 * d, 0.2 * d}, channel, viscosity)) {
+    scene.fluid = rung;
+    scene.bed.top = scene.grid.top = top;
+    add_grains(scene, d, density_ratio, 0.02);
+    state = state_of(scene, {{10 * d, 10 * d, 10.03 * d}}, false);
+  }
+  double& u(int k) { return state.fluid.velocity.x[scene.grid.index(0, 0, k)]; }
+  void run(double time, double step) {
+    Coupler coupler(scene);
+    while (state.clock.time < time * (1 - 1e-12))
+      ASSERT_EQ(ailment(coupler.step(state, std::min(step, time - state.clock.time))), "");
+  }
+  Scene scene;
+  State state;
+};
+
+TEST(FluidRungs, AGrainInALinearShearTurnsWithHalfOfIt) {
+  for (const FluidRung rung : {FluidRung::column, FluidRung::profile}) {
+    Alone one(rung, Top::lid, nu);
+    one.scene.terms.viscous_torque = true;
+    const double shear = 10, relaxation = density_ratio * d * d / (60 * nu);   // I/(pi mu d^3)
+    one.state.search.lid_speed = shear * 20 * d;
+    for (int k = 0; k < 100; ++k) one.u(k) = shear * (k + 0.5) * 0.2 * d;
+    one.state.grains.velocity[0].x = shear * 10.03 * d;
+    one.run(relaxation, relaxation / 100);
+    EXPECT_NEAR(one.state.grains.spin[0].y, 0.5 * shear * (1 - std::exp(-1)), 0.02 * 0.5 * shear);
+    one.run(30 * relaxation, relaxation);
+    EXPECT_NEAR(one.state.grains.spin[0].y, 0.5 * shear, 1e-3 * 0.5 * shear);
+    EXPECT_LT(std::abs(one.state.grains.spin[0].x) + std::abs(one.state.grains.spin[0].z), 1e-12 * shear);
+  }
+}
+
+/// dv/dt = (s - 1) g/(s + 1/2) of a lone grain let go, and (1 + 1/2) G/(s + 1/2) of one in a fluid that G drives: before drag tells.
+TEST(FluidRungs, AGrainLetGoCarriesHalfItsVolumeOfLiquid) {
+  for (const FluidRung rung : {FluidRung::column, FluidRung::profile})
+    for (const bool added : {false, true}) {
+      Alone one(rung, Top::free_slip, 1e-9);
+      one.scene.terms.added_mass = added;
+      one.scene.bed.gravity = {0, 0, -9.81};
+      if (rung == FluidRung::column) one.state.search.gradient = 2;
+      const double time = 2e-3, carried = added ? 0.5 : 0;
+      one.run(time, time / 100);
+      const Vec3 v = one.state.grains.velocity[0];
+      EXPECT_NEAR(v.z, -(density_ratio - 1) * 9.81 * time / (density_ratio + carried), 0.02 * std::abs(v.z)) << added;
+      if (rung == FluidRung::profile) continue;
+      EXPECT_NEAR(v.x, (1 + carried) * 2 * time / (density_ratio + carried), 0.02 * v.x);
+    }
+}
+
+/// The liquid of grains at rest in it neither stirs nor smooths it: noise within a grain's height does not grow, whatever its wave.
+TEST(FluidRungs, AddedMassLetsNoNoiseOfAColumnGrow) {
+  for (const double s : {1.05, 2.65}) {
+    Scene scene = fluid_scene({1, 1, 60}, {5 * d, 5 * d, 0.1 * d}, channel, 1e-12);
+    scene.fluid = FluidRung::column;
+    add_grains(scene, d, s, 0.02);
+    scene.terms.added_mass = true;
+    State state = state_of(scene, cubic_places({5, 5, 6}, {0, 0, 0}, {5 * d, 5 * d, 6 * d}, 0, 1), false);
+    for (int k = 0; k < 60; ++k) state.fluid.velocity.x[scene.grid.index(0, 0, k)] = k % 2 ? 1e-6 : -1e-6;
+    Coupler coupler(scene);
+    for (int n = 0; n < 300; ++n) ASSERT_EQ(ailment(coupler.step(state, scene.steps.fluid_interval)), "");
+    for (int k = 0; k < 60; ++k) EXPECT_LE(std::abs(state.fluid.velocity.x[scene.grid.index(0, 0, k)]), 1.1e-6) << k;
+  }
 }
 
 TEST(FluidRungs, RefuseWhatTheyCannotCarry) {
@@ -162,7 +240,7 @@ TEST(FluidRungs, RefuseWhatTheyCannotCarry) {
   Scene smoothed = good;
   smoothed.smoothing.z = d;
   EXPECT_TRUE(refused(smoothed, "models.smoothing"));
-  for (const auto term : {&Terms::added_mass, &Terms::self_disturbance, &Terms::viscous_torque, &Terms::wall_forces}) {
+  for (const auto term : {&Terms::self_disturbance, &Terms::wall_forces}) {
     Scene more = good;
     more.terms.*term = true;
     EXPECT_TRUE(refused(more, "models.terms"));

@@ -77,6 +77,45 @@ TEST(ColumnFlow, UnderALidIsALineToRounding) {
   }
 }
 
+/// Grains that do not turn resist as C/4 more viscosity would; a torque of their own stirs nothing where all of them have it.
+TEST(ColumnFlow, BearsUniformCouplesAsAStressEverywhere) {
+  const double nu = 3e-6, rate = 4e-6, pull = 2e-6, height = 2, lid = 0.7;
+  for (const int layers : {1, 2, 7, 300}) {
+    TestColumn c({.layers = layers, .thickness = height / layers, .viscosity = nu});
+    c.drive.lid_speed = lid;
+    c.exchange.turn_rate.assign(c.layers(), rate), c.exchange.turn_pull.assign(c.layers(), pull);
+    c.step(forever, 3);
+    for (std::size_t k = 0; k < c.layers(); ++k) EXPECT_NEAR(c.u[k], lid * c.middle(k) / height, 1e-13);
+    const double stress = (nu + rate / 4) * lid / height - pull / 2;
+    for (const double each : c.flow.stress()) EXPECT_NEAR(each, stress, 1e-18);
+    EXPECT_NEAR(c.flow.books().on_lid, -stress, 1e-18);
+  }
+}
+
+/// A torque of the grains works on what they read of the flow's turning, half of find_shear(), and resistance to it takes work.
+TEST(ColumnFlow, GainsByCouplesThePowerThatTheGrainsSpend) {
+  const double h = 1e-4, dt = 1e-3;
+  for (const Top top : {Top::lid, Top::free_slip})
+    for (const bool resist : {false, true}) {
+      TestColumn c({.layers = 40, .thickness = h, .viscosity = 1e-30, .top = top});
+      std::mt19937 bits(3);
+      std::uniform_real_distribution<double> any(0, 1);
+      c.exchange.turn_rate.assign(40, 0), c.exchange.turn_pull.assign(40, 0);
+      for (double& u : c.u) u = any(bits);
+      for (double& each : resist ? c.exchange.turn_rate : c.exchange.turn_pull) each = 1e-6 * any(bits);
+      const std::vector<double> start = c.u;
+      std::vector<double> shear;
+      c.flow.find_shear(start, 0, shear);
+      c.step(dt);
+      double gained = 0, spent = 0;
+      for (std::size_t k = 0; k < 40; ++k)
+        gained += start[k] * (c.u[k] - start[k]) / dt, spent += 0.5 * c.exchange.turn_pull[k] * shear[k];
+      if (resist) EXPECT_LT(gained, 0);
+      else EXPECT_NEAR(gained / spent, 1, 1e-9);
+      EXPECT_NEAR(c.unbalanced(), 0, 1e-12 * std::abs(c.flow.books().on_bottom));
+    }
+}
+
 TEST(ColumnFlow, OfAFilmIsTheParabolaAndWhatHalfALayerAtTheWallAdds) {
   const double nu = 2e-6, a = 0.01, height = 0.02;
   for (const int layers : {5, 40}) {
