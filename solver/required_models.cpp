@@ -317,11 +317,11 @@ std::vector<ModelChoice> required_models(const SceneFacts& facts) {
 
 ModelChoice fluid_choice(const Scene& scene) {
   constexpr auto by_itself =
-      "\"auto\" takes the box: a column only where a measured trade shows the difference to be below "
-      "the accuracy asked for, an imposed profile never";
+      "\"auto\" takes the box: a column only by models.accuracy, where x and y are periodic, the bed is level and a "
+      "measured trade shows the difference to be below the accuracy asked for; an imposed profile never";
   const char* what = scene.fluid == FluidRung::box ? "the flow in three dimensions"
                      : scene.fluid == FluidRung::column
-                         ? "one velocity at each height, both ways; as the study file says"
+                         ? "one velocity at each height, both ways; as the study file or its models.accuracy says"
                          : "an imposed flow, which does not answer to grains; as the study file says";
   return {.term = fmt::format("fluid = {}", name_of(scene.fluid)),
           .on = true,

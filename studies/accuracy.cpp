@@ -33,19 +33,73 @@ std::optional<double> error_of(const json& setting) {
   return std::max(std::abs(difference.get<double>()), theta.at("uncertainty").get<double>());
 }
 
-const json& cheapest(const json& settings, double target) {
-  const json* best = &settings.at(0);   // the finest, without an error by definition
+/// Which rungs of the fluid may be chosen for a study: the box, the one that it names itself, a column where one velocity at each height can
+/// be the mean of the flow and the box has been its measure; an imposed profile never by itself.
+class RungRule {
+ public:
+  RungRule(const Study& study, const json& finest) : of_finest_(rung_in(finest, "box")) {
+    const auto own = study.settings.find("models.fluid");
+    if (own != study.settings.end()) own_ = own->second.text;
+    for (const auto& [key, setting] : study.settings) judge(key, setting);
+    for (const auto& axis : study.axes)
+      for (const auto& setting : axis.values) judge(axis.key, setting);
+  }
+
+  std::string rung_of(const json& setting) const { return rung_in(setting.at("changes"), of_finest_); }
+  /// Why a rung may not be chosen; empty if it may.
+  std::string objection(const std::string& rung) const {
+    if (rung == "box" || rung == own_) return {};
+    if (rung == "profile") return "an imposed profile does not answer to grains";
+    if (of_finest_ != "box") return "nothing measures it against a box";
+    return not_uniform_;
+  }
+
+ private:
+  static std::string rung_in(const json& values, const std::string& otherwise) {
+    if (!values.contains("models.fluid")) return otherwise;
+    const auto toml = values.at("models.fluid").get<std::string>(), word = toml.substr(1, toml.size() - 2);
+    return word == "auto" ? "box" : word;
+  }
+  void judge(const std::string& key, const Setting& setting) {
+    if ((key == "box.x" || key == "box.y") && std::get<std::string>(setting.value) == "wall")
+      not_uniform_ = fmt::format("{} = \"wall\" makes the flow differ across", key);
+    if (key == "box.slope" && std::get<Quantity>(setting.value).value != 0)
+      not_uniform_ = fmt::format("box.slope = {}, and a column is taken for level beds alone", setting.text);
+  }
+
+  std::string of_finest_, own_, not_uniform_;
+};
+
+struct Chosen {
+  const json* setting;
+  std::string passed_over;   // a cheaper one that is good enough, and why it is not taken
+};
+
+Chosen cheapest(const json& settings, double target, const RungRule& rule) {
+  const json *best = &settings.at(0), *refused = nullptr;   // the finest has no error by definition
   for (const auto& one : settings) {
     const auto error = error_of(one);
-    const bool cheaper = one.at("core_seconds") < best->at("core_seconds");
-    if (error && *error <= target && cheaper) best = &one;
+    if (!error || *error > target) continue;
+    const json*& among = rule.objection(rule.rung_of(one)).empty() ? best : refused;
+    if (!among || one.at("core_seconds") < among->at("core_seconds")) among = &one;
   }
-  return *best;
+  if (!refused || refused->at("core_seconds") >= best->at("core_seconds")) return {best, {}};
+  const auto rung = rule.rung_of(*refused);
+  return {best, fmt::format("{} (models.fluid = {}) costs less and is passed over: {}",
+                            refused->at("name").get<std::string>(), rung, rule.objection(rung))};
 }
 
-AccuracyChoice choice_from(const json& trade, const std::string& file, double target) {
-  const json &settings = trade.at("settings"), &chosen = cheapest(settings, target), &scene = trade.at("scene");
+AccuracyChoice choice_from(const Study& study, const json& trade, const std::string& file, double target) {
+  const json &settings = trade.at("settings"), &scene = trade.at("scene");
+  const RungRule rule(study, trade.at("finest"));
+  const auto of_finest = rule.rung_of(settings.at(0));
+  if (const auto why = rule.objection(of_finest); !why.empty())
+    throw Error(ErrorKind::study_invalid, fmt::format("the finest setting of {} is a {}: {}", file, of_finest, why),
+                fmt::format("models.fluid = \"{}\", or a trade whose finest setting is a box", of_finest));
+  const auto [found, passed_over] = cheapest(settings, target, rule);
+  const json& chosen = *found;
   AccuracyChoice made;
+  made.fluid = rule.rung_of(chosen), made.passed_over = passed_over;
   made.from = file, made.target = target, made.setting = chosen.at("name");
   made.settings = settings_in(trade.at("finest"), file);
   for (auto& [key, setting] : settings_in(chosen.at("changes"), file)) made.settings[key] = setting;
@@ -66,10 +120,11 @@ std::string AccuracyChoice::in_words() const {
   std::string list;
   for (const auto& [key, value] : settings)
     list += fmt::format("{}{} = {}", list.empty() ? "" : ", ", key, as_toml(value));
+  const auto rung = fluid == "column" ? "; a column, as x and y are periodic and the bed is level" : "";
   return fmt::format(
       "accuracy {:.3g} %: setting {} of {}, theta_c measured to be within {:.2g} % of the finest, for {:.2g} of its "
-      "time: {}",
-      100 * target, setting, from, 100 * error, cost, list);
+      "time{}: {}{}",
+      100 * target, setting, from, 100 * error, cost, rung, list, passed_over.empty() ? "" : ". " + passed_over);
 }
 
 std::optional<AccuracyChoice> chosen_accuracy(const Study& study, const TableReader& read_table, Problems& problems) {
@@ -83,7 +138,7 @@ std::optional<AccuracyChoice> chosen_accuracy(const Study& study, const TableRea
   }
   const auto file = study.file.parent_path() / from->second.text;
   try {
-    return choice_from(json::parse(read_table(file)), from->second.text,
+    return choice_from(study, json::parse(read_table(file)), from->second.text,
                        std::get<Quantity>(target->second.value).value);
   } catch (const json::exception& error) {
     problems.add(from->second.place,

@@ -220,10 +220,11 @@ class Unfolding {
   std::set<std::string> placed_;   // beds whose grains have been placed
 };
 
-/// What the trade says; a value of the study's own beside it would be one of the two only.
+/// What the trade says; a value of the study's own beside it would be one of the two only. "auto" leaves it to the trade.
 void Unfolding::choose_settings(Settings& settings) {
   for (const auto& [key, chosen] : accuracy_->settings) {
     const auto [there, is_new] = settings.insert({key, chosen});
+    if (there->second.text == "auto") there->second = chosen;
     if (!is_new && !same_value(there->second, chosen))
       problems_.add(there->second.place,
                     fmt::format("{}: {} stands beside models.accuracy, which chooses it", key, there->second.text),

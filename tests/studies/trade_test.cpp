@@ -213,6 +213,60 @@ TEST_F(Accuracy, RefusesASceneFarFromTheTrades) {
   EXPECT_TRUE(says(why([&] { unfolded(with(asking("5 %"), "from = 0.06", "from = 0.9")); }), "every Shields number"));
 }
 
+/// The trade's json with the cheap setting on another rung.
+class AccuracyOfRungs : public Accuracy {
+ protected:
+  void short_holds_on(const std::string& rung) {
+    auto trade = nlohmann::json::parse(json);
+    trade["finest"]["models.fluid"] = "\"auto\"";
+    trade["settings"][2]["changes"]["models.fluid"] = "\"" + rung + "\"";
+    json = trade.dump();
+  }
+  std::string words(const std::string& text) {
+    const Study asked = parse_study(text, "other.toml");
+    Problems problems("other.toml");
+    const auto chosen = chosen_accuracy(
+        asked, [this](const std::filesystem::path&) { return json; }, problems);
+    problems.throw_if_any();
+    return chosen->in_words();
+  }
+};
+
+TEST_F(AccuracyOfRungs, TakesAColumnWhereItCanBeTheMeanOfTheFlow) {
+  short_holds_on("column");
+  EXPECT_EQ(unfolded(asking("5 %"))[0].scene.fluid, FluidRung::column);
+  EXPECT_EQ(unfolded(with(asking("5 %"), "[models]", "[models]\nfluid = \"auto\""))[0].scene.fluid, FluidRung::column);
+  EXPECT_TRUE(says(words(asking("5 %")), "a column, as x and y are periodic and the bed is level"));
+  EXPECT_EQ(unfolded(asking("1 %"))[0].scene.fluid, FluidRung::box) << "not good enough";
+}
+
+TEST_F(AccuracyOfRungs, TakesTheBoxBesideWallsAndOnSlopes) {
+  short_holds_on("column");
+  for (const char* uneven :
+       {"[box]\ny = \"wall\"", "[box]\nslope = \"3 deg\"", "[box]\nslope = [\"0 deg\", \"3 deg\"]"}) {
+    const auto text = with(asking("5 %"), "[box]", uneven);
+    for (const auto& one : unfolded(text)) EXPECT_EQ(one.scene.fluid, FluidRung::box) << uneven;
+    EXPECT_TRUE(says(words(text), "short (models.fluid = column) costs less and is passed over: box.")) << words(text);
+  }
+}
+
+TEST_F(AccuracyOfRungs, NeverTakesAProfileByItself) {
+  short_holds_on("profile");
+  EXPECT_EQ(unfolded(asking("5 %"))[0].scene.fluid, FluidRung::box);
+  EXPECT_TRUE(says(words(asking("5 %")), "an imposed profile does not answer to grains"));
+  EXPECT_EQ(unfolded(with(asking("5 %"), "[models]", "[models]\nfluid = \"profile\""))[0].scene.fluid,
+            FluidRung::profile);
+}
+
+TEST_F(AccuracyOfRungs, WantsTheBoxAsMeasure) {
+  auto trade = nlohmann::json::parse(json);
+  trade["finest"]["models.fluid"] = "\"column\"";
+  json = trade.dump();
+  EXPECT_TRUE(says(why([&] { unfolded(asking("5 %")); }), "is a column: nothing measures it against a box"));
+  EXPECT_EQ(unfolded(with(asking("5 %"), "[models]", "[models]\nfluid = \"column\""))[0].scene.fluid,
+            FluidRung::column);
+}
+
 TEST_F(Accuracy, RefusesAValueBesideItsOwn) {
   EXPECT_TRUE(says(why([&] { unfolded(with(asking("5 %"), "kind = \"lid\"", "kind = \"lid\"\ndwell = \"30 td\"")); }),
                    "drive.dwell: 30 td stands beside models.accuracy, which chooses it"));
