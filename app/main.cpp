@@ -161,7 +161,10 @@ void CommandLine::result_commands() {
   auto* view = add("view", "files that ParaView opens; prints the command",
                    "bedload view shields.toml d0.5mm-rho2000-s1", [this] { return view_command(study_, viewed_); });
   study_argument(view);
-  view->add_option("CASE", viewed_, "label or id prefix of one case; CASE@STEP: that checkpoint alone")->required();
+  view->add_option("CASE", viewed_,
+                   "label or id prefix of one case; CASE@STEP: that checkpoint alone; CASE@bed, CASE@sheared, "
+                   "CASE@onset: the bed settled, after its shear, at onset")
+      ->required();
 }
 
 void CommandLine::validate_commands() {

@@ -13,6 +13,7 @@
 #include "checkpoint/checkpoint.hpp"
 #include "checkpoint/checkpoint_series.hpp"
 #include "scheduler/attempt.hpp"
+#include "solver/bed/onset_moment.hpp"
 #include "solver/dimensionless.hpp"
 #include "studies/case_file.hpp"
 #include "studies/report.hpp"
@@ -46,6 +47,18 @@ std::optional<BedView> view_at_rest(const std::filesystem::path& directory, cons
   return view_of(one, read_checkpoint(file), has_history ? "at rest, after its shear" : "at rest");
 }
 
+/// A case at the end of the hold in which its bed began to move; nothing where none did by the criterion of now.
+std::optional<BedView> view_at_onset(const std::filesystem::path& directory, const CaseDirectory& one) {
+  const auto file = directory / "onset.h5";
+  if (!std::filesystem::exists(file)) return {};
+  State state = read_checkpoint(file);
+  if (!ends_at_onset(state.record, one.scene.onset)) return {};
+  const auto& holds = state.record.holds;
+  auto moment =
+      fmt::format("at onset: end of hold {}, theta = {:.3g}", holds.hold.size(), holds.shields_measured.back());
+  return view_of(one, std::move(state), std::move(moment));
+}
+
 /// A case as it stands in its newest whole checkpoint; nothing if it has none. Error corrupt if all are broken.
 std::optional<BedView> newest_view(const std::filesystem::path& directory, const CaseDirectory& one) {
   bool broken = false;
@@ -59,13 +72,18 @@ std::optional<BedView> newest_view(const std::filesystem::path& directory, const
   return view_of(one, std::move(*state), std::move(moment));
 }
 
+std::optional<BedView> view_in_motion(const std::filesystem::path& directory, const CaseDirectory& one) {
+  auto at_onset = view_at_onset(directory, one);
+  return at_onset ? std::move(at_onset) : newest_view(directory, one);
+}
+
 /// The pictures of a case that can be drawn. What cannot be read is said, and costs its picture alone: the rest of the
 /// report rests on the database.
 CaseViews views_of(const std::filesystem::path& directory, const CaseEntry& entry) {
   CaseViews of{.label = entry.label, .views = {}};
   if (!std::filesystem::exists(directory / "case.toml")) return of;
   using View = std::optional<BedView>(const std::filesystem::path&, const CaseDirectory&);
-  const std::pair<std::string_view, View*> moments[] = {{"at rest", view_at_rest}, {"as it stands", newest_view}};
+  const std::pair<std::string_view, View*> moments[] = {{"at rest", view_at_rest}, {"in motion", view_in_motion}};
   for (const auto& [when, view] : moments) try {
       if (auto drawn = view(directory, read_case_directory(directory))) of.views.push_back(std::move(*drawn));
     } catch (const Error& error) {
@@ -97,8 +115,9 @@ int curve_command(const StudyOptions& options) {
   if (curve.empty() && options.form == Form::table) return 0;
   fmt::print("{}", options.form == Form::csv    ? curve_as_csv(curve)
                    : options.form == Form::json ? curve_as_json(curve)
-                   : options.form == Form::svg  ? standing_alone(threshold_figure(curve))
-                                                : curve_as_table(curve, error_budget(results)));
+                   : options.form == Form::svg
+                       ? standing_alone(threshold_figure(curve))
+                       : curve_as_table(curve, error_budget(results)));
   return 0;
 }
 

@@ -1,15 +1,17 @@
-// `bedload view`: checkpoints of a case as files for ParaView.
+// `bedload view`: checkpoints of a case, and the beds that it keeps, as files for ParaView.
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "base/counted.hpp"
 #include "base/durable_file.hpp"
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "checkpoint/checkpoint.hpp"
 #include "checkpoint/checkpoint_series.hpp"
+#include "solver/initial_flow.hpp"
 #include "studies/case_file.hpp"
 #include "studies/study_directory.hpp"
 #include "studies/vtk_files.hpp"
@@ -22,19 +24,24 @@ namespace {
 
 struct Named {
   std::string word;                    // names the case
-  std::optional<std::uint64_t> step;   // all, if none is given
+  std::optional<std::string> moment;   // all, if none is given
 };
+
+constexpr std::string_view kept[] = {"bed", "sheared", "onset"};   // <name>.h5, beside the checkpoints
+
+bool is_moment(std::string_view word) {
+  const bool is_step = !word.empty() && word.find_first_not_of("0123456789") == word.npos;
+  return is_step || std::ranges::find(kept, word) != std::end(kept);
+}
 
 Named parse(const std::string& named) {
   const auto at = named.rfind('@');
   if (at == std::string::npos) return {named, {}};
-  std::uint64_t step = 0;
-  const char *first = named.data() + at + 1, *last = named.data() + named.size();
-  const auto [end, error] = std::from_chars(first, last, step);
-  if (error != std::errc() || end != last)
+  const auto moment = named.substr(at + 1);
+  if (!is_moment(moment))
     throw Error(ErrorKind::usage,
-                fmt::format("\"{}\" is no step: CASE@STEP wants a whole number", named.substr(at + 1)));
-  return {named.substr(0, at), step};
+                fmt::format("\"{}\" is no step: CASE@STEP wants a whole number, or {}", moment, fmt::join(kept, ", ")));
+  return {named.substr(0, at), moment};
 }
 
 CaseEntry only_case(const StudyPlace& place, const std::string& word) {
@@ -45,17 +52,45 @@ CaseEntry only_case(const StudyPlace& place, const std::string& word) {
   return found[0];
 }
 
+/// A state of a case on disk.
+struct Moment {
+  std::string name;   // a step, or what `kept` names
+  fs::path file;
+};
+
+std::vector<Moment> moments_in(const fs::path& directory) {
+  std::vector<Moment> moments;
+  for (const auto name : kept)
+    if (const auto file = directory / fmt::format("{}.h5", name); fs::exists(file))
+      moments.push_back({std::string(name), file});
+  for (const auto step : checkpoint_steps(directory))
+    moments.push_back({fmt::format("{}", step), directory / fmt::format("ck-{}.h5", step)});
+  return moments;
+}
+
 /// Those asked for. Error not_found if there is none.
-std::vector<std::uint64_t> steps_to_view(const fs::path& directory, const CaseEntry& entry, const Named& named) {
-  const auto steps = checkpoint_steps(directory);
-  if (steps.empty())
+std::vector<Moment> moments_to_view(const fs::path& directory, const CaseEntry& entry, const Named& named) {
+  const auto moments = moments_in(directory);
+  if (moments.empty())
     throw Error(ErrorKind::not_found, fmt::format("{} has no checkpoint in {}", entry.label, directory.string()),
                 "`bedload run` writes them every `checkpoint.every`");
-  if (!named.step) return steps;
-  if (std::find(steps.begin(), steps.end(), *named.step) == steps.end())
-    throw Error(ErrorKind::not_found, fmt::format("{} has no checkpoint of step {}", entry.label, *named.step),
-                fmt::format("it has those of steps {}", fmt::join(steps, ", ")));
-  return {*named.step};
+  if (!named.moment) return moments;
+  const auto found = std::ranges::find(moments, *named.moment, &Moment::name);
+  if (found != moments.end()) return {*found};
+  std::vector<std::string> names;
+  for (const Moment& moment : moments) names.push_back(moment.name);
+  throw Error(ErrorKind::not_found, fmt::format("{} has no checkpoint of step {}", entry.label, *named.moment),
+              fmt::format("it has those of steps {}", fmt::join(names, ", ")));
+}
+
+/// Cases share a settled bed, and its clock and flow are those of its pouring: here it lies under the case's own fluid at rest.
+State state_at(const Moment& moment, const Scene& scene) {
+  State state = read_checkpoint(moment.file);
+  if (moment.name != "bed") return state;
+  state.fluid = initial_flow(scene);
+  state.search = {};
+  state.clock.time = -scene.shear.time;
+  return state;
 }
 
 }   // namespace
@@ -65,19 +100,28 @@ int view_command(const StudyOptions& options, const std::string& text) {
   const auto place = find_study(options.study, options.out);
   const auto entry = only_case(place, named.word);
   const fs::path directory = place.directory / entry.directory, view = directory / "view";
-  const auto steps = steps_to_view(directory, entry, named);
+  const auto moments = moments_to_view(directory, entry, named);
   const Scene scene = read_case_directory(directory).scene;
-  std::vector<ViewedStep> viewed;
+  std::vector<ViewedMoment> viewed;
   make_writable_directory(view);
-  for (const auto step : steps) {
-    const State state = read_checkpoint(directory / fmt::format("ck-{}.h5", step));
-    publish(view / fluid_file(step), fluid_for_vtk(scene, state));
-    publish(view / grains_file(step), grains_for_vtk(state));
-    viewed.push_back({step, state.clock.time, state.grains.size()});
-  }
+  for (const Moment& moment : moments) try {
+      const State state = state_at(moment, scene);
+      publish(view / fluid_file(moment.name), fluid_for_vtk(scene, state));
+      publish(view / grains_file(moment.name), grains_for_vtk(state));
+      viewed.push_back({moment.name, state.clock.time, state.grains.size()});
+    } catch (const Error& error) {
+      const bool by_itself =
+          error.kind == ErrorKind::corrupt || error.kind == ErrorKind::not_found;   // a worker removes old ones
+      if (!by_itself || moments.size() == 1) throw;
+      log_warning(fmt::format("left out: {}", error.what()));
+    }
+  if (viewed.empty()) throw Error(ErrorKind::corrupt, fmt::format("{}: none of its checkpoints is whole", entry.label));
+  std::ranges::stable_sort(viewed, {}, &ViewedMoment::time);
   publish(view / "case.xdmf", xdmf_index(scene, viewed));
   fmt::print("paraview '{}'\n", (view / "case.xdmf").string());
-  return 0;
+  if (viewed.size() == moments.size()) return 0;
+  log_warning(fmt::format("{} of {} viewed", viewed.size(), counted(moments.size(), "checkpoint")));
+  return static_cast<int>(ErrorKind::some_failed);
 }
 
 }   // namespace bedload

@@ -18,6 +18,7 @@
 #include "scheduler/attempt.hpp"
 #include "scheduler/heartbeat.hpp"
 #include "scheduler/request.hpp"
+#include "solver/bed/onset_moment.hpp"
 #include "solver/bed/onset_search.hpp"
 #include "solver/experiment.hpp"
 #include "solver/step_judgement.hpp"
@@ -151,10 +152,13 @@ int Worker::advance() {
 
 void Worker::step() {
   const bool coupled = state_.search.phase == Search::holding;
+  const auto holds_before = state_.record.holds.hold.size();
   const auto health = experiment_.step(state_);
   const bool settled = !coupled && state_.search.phase == Search::holding && !is_sheared_now();
   if (settled && searches()) write_checkpoint(branched_bed(), state_);   // its holds come back to it
   if (settled && case_.scene.shear.time > 0) say_how_the_shear_went();
+  const bool closed = state_.record.holds.hold.size() > holds_before;
+  if (closed && ends_at_onset(state_.record, case_.scene.onset)) write_checkpoint(directory_ / "onset.h5", state_);
   if (const auto cause = ailment(health); !cause.empty()) {
     throw Error(
         ErrorKind::numerical,

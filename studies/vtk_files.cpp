@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdint>
 #include <numeric>
 #include <span>
 
@@ -95,10 +96,10 @@ std::string attribute_in_xdmf(const std::string& name, bool vector, const char* 
                      array_in_xdmf(vector ? shape + " 3" : shape, type, file, "PointData/" + name));
 }
 
-std::string fluid_in_xdmf(const Scene& scene, const ViewedStep& at) {
+std::string fluid_in_xdmf(const Scene& scene, const ViewedMoment& at) {
   const auto& [nx, ny, nz] = scene.grid.cells;
   const auto h = scene.grid.h;
-  const auto shape = fmt::format("{} {} {}", nz, ny, nx), file = fluid_file(at.step);
+  const auto shape = fmt::format("{} {} {}", nz, ny, nx), file = fluid_file(at.name);
   return fmt::format(
              "    <Grid Name='fluid'>\n      <Time Value='{}'/>\n      <Topology TopologyType='3DCoRectMesh' "
              "Dimensions='{}'/>\n"
@@ -110,8 +111,8 @@ std::string fluid_in_xdmf(const Scene& scene, const ViewedStep& at) {
          attribute_in_xdmf("void_fraction", false, real, shape, file) + "    </Grid>\n";
 }
 
-std::string grains_in_xdmf(const ViewedStep& at) {
-  const auto n = fmt::format("{}", at.grains), file = grains_file(at.step);
+std::string grains_in_xdmf(const ViewedMoment& at) {
+  const auto n = fmt::format("{}", at.grains), file = grains_file(at.name);
   return fmt::format(
              "    <Grid Name='grains'>\n      <Time Value='{}'/>\n      <Topology TopologyType='Polyvertex' "
              "NumberOfElements='{}'/>\n      <Geometry GeometryType='XYZ'>{}</Geometry>\n",
@@ -122,7 +123,7 @@ std::string grains_in_xdmf(const ViewedStep& at) {
 }
 
 template <class Step>
-std::string series_in_xdmf(const std::string& name, const std::vector<ViewedStep>& steps, Step&& step) {
+std::string series_in_xdmf(const std::string& name, const std::vector<ViewedMoment>& steps, Step&& step) {
   std::string text = fmt::format("  <Grid Name='{}' GridType='Collection' CollectionType='Temporal'>\n", name);
   for (const auto& at : steps) text += step(at);
   return text + "  </Grid>\n";
@@ -177,12 +178,12 @@ std::vector<std::byte> grains_for_vtk(const State& state) {
   return file.image();
 }
 
-std::string fluid_file(std::uint64_t step) { return fmt::format("fluid-{}.hdf", step); }
-std::string grains_file(std::uint64_t step) { return fmt::format("grains-{}.hdf", step); }
+std::string fluid_file(const std::string& moment) { return fmt::format("fluid-{}.hdf", moment); }
+std::string grains_file(const std::string& moment) { return fmt::format("grains-{}.hdf", moment); }
 
-std::string xdmf_index(const Scene& scene, const std::vector<ViewedStep>& steps) {
+std::string xdmf_index(const Scene& scene, const std::vector<ViewedMoment>& steps) {
   return "<?xml version='1.0'?>\n<Xdmf Version='3.0'><Domain>\n" +
-         series_in_xdmf("fluid", steps, [&](const ViewedStep& at) { return fluid_in_xdmf(scene, at); }) +
+         series_in_xdmf("fluid", steps, [&](const ViewedMoment& at) { return fluid_in_xdmf(scene, at); }) +
          series_in_xdmf("grains", steps, grains_in_xdmf) + "</Domain></Xdmf>\n";
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,17 +19,17 @@ std::vector<std::byte> fluid_for_vtk(const Scene&, State);
 /// fixed, contacts (with grains and walls) [-], contact_force, the mean over the last step [N].
 std::vector<std::byte> grains_for_vtk(const State&);
 
-struct ViewedStep {
-  std::uint64_t step = 0;
+struct ViewedMoment {
+  std::string name;         // in the names of its files: a step, or "bed"
   double time = 0;          // [s]
   std::size_t grains = 0;   // how many
 };
 
-/// Names of a step's files, without directory.
-std::string fluid_file(std::uint64_t step);
-std::string grains_file(std::uint64_t step);
+/// Names of a moment's files, without directory.
+std::string fluid_file(const std::string& moment);
+std::string grains_file(const std::string& moment);
 
 /// The XDMF 3 index of files that stand beside it.
-std::string xdmf_index(const Scene&, const std::vector<ViewedStep>&);
+std::string xdmf_index(const Scene&, const std::vector<ViewedMoment>&);
 
 }   // namespace bedload

@@ -105,6 +105,14 @@ std::map<std::string, std::string> digests(const fs::path& here) {
   return found;
 }
 
+/// The bed at onset that each case keeps to be looked at.
+std::map<std::string, std::string> beds_at_onset(const fs::path& study) {
+  std::map<std::string, std::string> found;
+  for (const auto& directory : directories_of(study))
+    if (fs::exists(study / directory / "onset.h5")) found[directory] = contents(study / directory / "onset.h5");
+  return found;
+}
+
 TEST_P(KillAndResume, GivesTheSameBitsAsAnUndisturbedRun) {
   TemporaryDirectory quiet, disturbed;
   for (const auto* directory : {&quiet, &disturbed}) std::ofstream(directory->path() / "tiny.toml") << GetParam().text;
@@ -141,6 +149,9 @@ TEST_P(KillAndResume, GivesTheSameBitsAsAnUndisturbedRun) {
   const auto expected = digests(quiet.path()), got = digests(disturbed.path());
   EXPECT_EQ(expected.size(), GetParam().directories);
   EXPECT_EQ(expected, got) << "seed " << seed;
+  const auto at_onset = beds_at_onset(quiet.path() / "tiny");
+  EXPECT_FALSE(at_onset.empty());
+  EXPECT_TRUE(at_onset == beds_at_onset(results)) << "seed " << seed;
 }
 
 INSTANTIATE_TEST_SUITE_P(Studies, KillAndResume,
