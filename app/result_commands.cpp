@@ -114,10 +114,10 @@ int curve_command(const StudyOptions& options) {
                                                  : "no case of this study has a ramp: there is no threshold to show");
   if (curve.empty() && options.form == Form::table) return 0;
   fmt::print("{}", options.form == Form::csv    ? curve_as_csv(curve)
-                   : options.form == Form::json ? curve_as_json(curve)
+                   : options.form == Form::json ? curve_as_json(curve, motion_measures(results))
                    : options.form == Form::svg
                        ? standing_alone(threshold_figure(curve))
-                       : curve_as_table(curve, error_budget(results)));
+                       : curve_as_table(curve, error_budget(results)) + motion_as_table(motion_measures(results)));
   return 0;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "studies/published_curves.hpp"
@@ -30,6 +31,28 @@ std::string percent_or_dash(double part) { return std::isfinite(part) ? fmt::for
 std::string as_csv(const std::string& word) { return word; }
 std::string as_csv(std::uint64_t number) { return fmt::format("{}", number); }
 std::string as_csv(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
+
+/// [lower, upper] each; an end that is open becomes null.
+nlohmann::ordered_json as_json(const OverSeeds& of) {
+  const auto bounds = [](ShieldsBounds b) {
+    return nlohmann::ordered_json{b.lower > 0 ? b.lower : std::numeric_limits<double>::quiet_NaN(), b.upper};
+  };
+  return {{"median", bounds(of.median)},
+          {"least", bounds(of.least)},
+          {"greatest", bounds(of.greatest)},
+          {"seeds", of.seeds}};
+}
+
+nlohmann::ordered_json motion_as_json(const MotionMeasures& motion) {
+  nlohmann::ordered_json json{{"first_grain", as_json(motion.first_grain)},
+                              {"moved_1_percent", as_json(motion.one_percent)},
+                              {"moved_10_percent", as_json(motion.ten_percent)},
+                              {"reference_transport", as_json(motion.reference_transport)}};
+  if (const auto& law = motion.flux_law)
+    json["flux_law"] = {
+        {"exponent", law->exponent}, {"threshold", as_json(law->threshold)}, {"threshold_error", law->threshold_error}};
+  return json;
+}
 
 std::size_t widest_label(const std::vector<ThresholdPoint>& curve) {
   std::size_t width = 5;
@@ -63,9 +86,10 @@ std::string remarks(const std::vector<ThresholdPoint>& curve) {
 
 std::string interval_in_words(const ThresholdPoint& p) {
   if (!std::isfinite(p.interval_lower) && !std::isfinite(p.interval_upper)) return "-";
-  const auto end = [](double bound) { return std::isfinite(bound) ? fmt::format("{:.4f}", bound) : std::string(); };
   const auto confidence = p.confidence < 0.95 ? fmt::format(" {:.3g}%", 100 * p.confidence) : std::string();
-  return end(p.interval_lower) + "-" + end(p.interval_upper) + confidence;
+  if (!std::isfinite(p.interval_upper)) return fmt::format("> {:.4f}", p.interval_lower) + confidence;
+  if (!std::isfinite(p.interval_lower)) return fmt::format("< {:.4f}", p.interval_upper) + confidence;
+  return fmt::format("{:.4f}-{:.4f}", p.interval_lower, p.interval_upper) + confidence;
 }
 
 std::string onset_in_words(const std::vector<ThresholdPoint>& curve) {
@@ -110,13 +134,15 @@ std::string curve_as_csv(const std::vector<ThresholdPoint>& curve) {
   return text + "\n";
 }
 
-std::string curve_as_json(const std::vector<ThresholdPoint>& curve) {
+std::string curve_as_json(const std::vector<ThresholdPoint>& curve, const std::vector<MotionMeasures>& motion) {
   auto points = nlohmann::ordered_json::array();
   for (const ThresholdPoint& p : curve) {
     nlohmann::ordered_json point;
     ThresholdPoint::each(p, [&](std::string_view name, const auto& member) { point[std::string(name)] = member; });
     for (const PublishedCurve& known : published_curves())
       point["published"][std::string(known.name)] = known.shields(p.galileo);
+    if (const auto of = std::ranges::find(motion, p.set, &MotionMeasures::set); of != motion.end())
+      point["motion"] = motion_as_json(*of);
     points.push_back(std::move(point));
   }
   return points.dump(2) + "\n";   // a number that is not known becomes null

@@ -50,7 +50,7 @@ std::string curve_table(const std::vector<ThresholdPoint>& curve) {
 
 std::string threshold_section(const std::vector<ThresholdPoint>& curve, const std::vector<BudgetEntry>& budget,
                               std::size_t finished) {
-  const auto none = finished == 0 ? "<p>No case has finished yet.</p>" : "<p>No finished case has a ramp.</p>";
+  const auto none = finished == 0 ? "<p>No case has finished yet.</p>" : "<p>No finished case seeks an onset.</p>";
   const std::string body =
       curve.empty() ? scrolling(threshold_figure(curve)) + none
                     : scrolling(threshold_figure(curve)) + curve_table(curve) + "<p class='caption'>" +
@@ -63,7 +63,8 @@ std::string threshold_section(const std::vector<ThresholdPoint>& curve, const st
       "to the highest bound of any seed; the thin pale bar around it, with wider caps, is the systematic error that "
       "pairs "
       "of runs of one packing measured (bracket, hold, mesh, area), and missing where there are no pairs. A ramp is "
-      "screening: it says where to look. Open markers with an arrow are one-sided bounds. The published "
+      "screening: it says where to look. Open markers with an arrow are one-sided bounds; an arrow at a filled one: a "
+      "seed knows no bound on that side. The published "
       "curves are fits to turbulent flow; "
       "a laminar model that knows drag alone is expected near the laminar band or above it, not on them.",
       body);
@@ -80,18 +81,51 @@ std::string for_each_case(const std::vector<FinishedCase>& cases, Figure&& figur
   return all.empty() ? all : "<div class='row'>" + all + "</div>\n";
 }
 
-std::string ramp_section(const Database& database, const std::vector<FinishedCase>& cases) {
-  return section("Ramps",
-                 "Events are passages of half a diameter downstream, counted per surface grain and grain time: one "
-                 "point per hold, over its last half; bars are standard errors. Filled: at or above the onset "
-                 "criterion (dashed); grey: no event was counted. "
-                 "The shaded strip is the bracket of the threshold.",
-                 for_each_case(cases, [&](const FinishedCase& of) { return ramp_figure(database, of); }));
+std::string flux_section(const Database& database, const std::vector<FinishedCase>& cases) {
+  return section(
+      "Flux of every hold",
+      "Events are passages of half a diameter downstream, counted per surface grain and grain time: one "
+      "point per hold, over its last half; bars are standard errors. Filled: at or above the onset "
+      "criterion (dashed); grey: no event was counted. Circles: holds of a ramp, which is screening, or from "
+      "the settled bed of a bisection; squares: its staircase; diamonds: a stir; triangles: towards rest. "
+      "The shaded strip is the bracket of the threshold.",
+      for_each_case(cases, [&](const FinishedCase& of) { return flux_figure(database, of); }));
+}
+
+/// The median, and below it the range of the seeds.
+std::string stacked_cell(const std::string& words) {
+  const auto range = words.find(" (");
+  if (range == words.npos) return number_cell(words);
+  return fmt::format("<td class='n'>{}<br>{}</td>", escaped(words.substr(0, range)), escaped(words.substr(range + 1)));
+}
+
+std::string motion_table(const std::vector<MotionMeasures>& all) {
+  if (all.empty()) return {};
+  std::string rows = header_row({"scene", "first grain", "1 % moved", "10 % moved", "W* = 0.002", "n", "θ0"}, 1, 6);
+  for (const MotionMeasures& m : all)
+    rows += "<tr>" + text_cell(m.label) + stacked_cell(in_words(m.first_grain)) +
+            stacked_cell(in_words(m.one_percent)) + stacked_cell(in_words(m.ten_percent)) +
+            stacked_cell(in_words(m.reference_transport)) +
+            number_cell(m.flux_law ? m.flux_law->exponent : NAN, "{:g}") +
+            stacked_cell(m.flux_law ? in_words(*m.flux_law) : "–") + "</tr>\n";
+  return html_table(rows);
+}
+
+std::string motion_section(const Database& database, const std::vector<FinishedCase>& cases) {
+  return section(
+      "Movers, flux law and the decay of motion",
+      "Shields numbers at which the first grain, 1 % and 10 % of the surface grains had gone half a diameter "
+      "within a hold, and at the reference transport W* = q*/θ<sup>1.5</sup> = 0.002; q* = k (θ − θ0)<sup>n</sup> "
+      "over the holds that move. Medians over the seeds, in brackets the lowest and highest; &lt; and &gt; where "
+      "a seed knows a bound alone. Figures: moving grains since a hold began (thin) and last + (first − last) "
+      "exp(−t/T) fitted to them (dashed), for the first holds whose motion decays.",
+      motion_table(motion_measures(database)) +
+          for_each_case(cases, [&](const FinishedCase& of) { return decay_figure(database, of); }));
 }
 
 std::string history_section(const Database& database, const std::vector<FinishedCase>& cases) {
   return section("Motion in time",
-                 "Grains faster than 0.01 √((s − 1) g d), per surface grain. Every other hold of the ramp is shaded.",
+                 "Grains faster than 0.01 √((s − 1) g d), per surface grain. Every other hold is shaded.",
                  for_each_case(cases, [&](const FinishedCase& of) { return history_figure(database, of); }));
 }
 
@@ -105,16 +139,18 @@ std::string bed_section(const std::vector<CaseViews>& beds) {
           fmt::format("<div><p class='moment'>{}</p>{}</div>\n", escaped(bed.moment), scrolling(bed_picture(bed, 468)));
     body += fmt::format("<h3>{}</h3>\n<div class='row'>{}</div>\n", escaped(of.label), pictures);
   }
-  return section("The bed",
-                 "Side view of the bed at rest, before its first hold, and in the newest checkpoint: the grains of the "
-                 "front five diameters, farther ones through haze, coloured by speed.",
-                 body);
+  return section(
+      "The bed",
+      "Side view of the bed at rest, before its first hold, and at onset: at the end of the first hold of a ramp "
+      "that moved it, or of the weakest flow of a bisection that did (where none has yet: in its newest "
+      "checkpoint). The grains of the front five diameters, farther ones through haze, coloured by speed.",
+      body);
 }
 
 std::string profile_section(const Database& database, const std::vector<FinishedCase>& cases) {
   return section("Profiles",
-                 "Means over x and y: porosity of the settled bed and at the end of the ramp; velocity of fluid and "
-                 "grains at the end of the ramp.",
+                 "Means over x and y: porosity of the settled bed and after the last hold; velocity of fluid and "
+                 "grains in the last hold.",
                  for_each_case(cases, [&](const FinishedCase& of) {
                    const std::string porosity = porosity_figure(database, of), velocity = velocity_figure(database, of);
                    return porosity.empty() && velocity.empty()
@@ -219,14 +255,15 @@ std::string provenance_section(const Database& database, const ReportRequest& re
       "Provenance",
       "The same study gives the same bits. This command reproduces every number, <code>bedload report</code> draws the "
       "page again; the tables behind the figures are <code>threshold_curve</code>, <code>ramp_points</code>, "
-      "<code>samples</code> and <code>bed_statistics</code>.",
+      "<code>thresholds</code>, <code>flux_laws</code>, <code>motion_decay</code>, <code>samples</code> and "
+      "<code>bed_statistics</code>.",
       body);
 }
 
 std::string summary(const std::vector<ThresholdPoint>& curve, std::size_t cases) {
   if (cases == 0) return "no results yet";
   const auto finished = counted(cases, "finished case");
-  if (curve.empty()) return finished + ", no ramp";
+  if (curve.empty()) return finished + ", no onset sought";
   double low = NAN, high = NAN;
   for (const ThresholdPoint& p : curve) low = std::fmin(low, p.shields), high = std::fmax(high, p.shields);
   const auto from = fmt::format("{:.3f}", low), to = fmt::format("{:.3f}", high);
@@ -250,10 +287,10 @@ std::string report_html(const Database& database, const ReportRequest& request) 
              "header>\n",
              title, theme_style(), summary(curve, cases.size()), request.written.empty() ? "" : " · ",
              escaped(request.written), report_style) +
-         threshold_section(curve, error_budget(database), cases.size()) + ramp_section(database, cases) +
-         bed_section(request.beds) + history_section(database, cases) + profile_section(database, cases) +
-         model_section(database) + health_section(database) + provenance_section(database, request) +
-         "</main></body></html>\n";
+         threshold_section(curve, error_budget(database), cases.size()) + flux_section(database, cases) +
+         motion_section(database, cases) + bed_section(request.beds) + history_section(database, cases) +
+         profile_section(database, cases) + model_section(database) + health_section(database) +
+         provenance_section(database, request) + "</main></body></html>\n";
 }
 
 }   // namespace bedload

@@ -70,7 +70,10 @@ void draw_point(SvgPlot& plot, const ThresholdPoint& p, Marker shape, std::strin
   if (std::isfinite(p.shields)) {
     const bool fitted = p.confidence >= 0.95 && std::isfinite(p.interval_lower) && std::isfinite(p.interval_upper);
     const double from = fitted ? p.interval_lower : p.lower, to = fitted ? p.interval_upper : p.upper;
-    if (std::isfinite(from) && std::isfinite(to)) plot.vertical_bar(p.reynolds, from, to, colour);
+    const bool known_below = std::isfinite(from), known_above = std::isfinite(to);
+    if (known_below || known_above)
+      plot.vertical_bar(p.reynolds, known_below ? from : p.shields, known_above ? to : p.shields, colour);
+    if (known_below != known_above) plot.vertical_arrow(p.reynolds, p.shields, known_below, colour);
     if (p.systematic > 0)
       plot.thin_bar(p.reynolds, p.shields * std::max(0.0, 1 - p.systematic), p.shields * (1 + p.systematic), colour);
     plot.marker({p.reynolds, p.shields}, shape, colour, true,
@@ -144,12 +147,19 @@ Onsets onset_of(const Database& database, const std::string& id) {
           text_in(row[4]) == "flux" ? "event_flux" : "moving_fraction"};
 }
 
+Marker marker_of(const std::string& purpose) {
+  if (purpose == "staircase") return Marker::square;
+  if (purpose == "stir") return Marker::diamond;
+  return purpose == "stop" ? Marker::triangle : Marker::circle;
+}
+
 }   // namespace
 
-std::string ramp_figure(const Database& database, const FinishedCase& of) {
+std::string flux_figure(const Database& database, const FinishedCase& of) {
   const Onsets onset = onset_of(database, of.id);
   const Rows holds = database.query(
-      "SELECT shields, event_flux, event_flux_error, moving_fraction FROM ramp_points WHERE case_id = ? ORDER BY hold",
+      "SELECT shields, event_flux, event_flux_error, moving_fraction, purpose FROM ramp_points WHERE case_id = ? "
+      "ORDER BY hold",
       {of.id});
   if (holds.rows.empty()) return {};
   double low = 1e9, high = 0;
@@ -171,9 +181,10 @@ std::string ramp_figure(const Database& database, const FinishedCase& of) {
     const double shields = number_in(row[0]), flux = number_in(row[1]), error = number_in(row[2]);
     if (flux > least) plot.vertical_bar(shields, std::max(least, flux - error), flux + error, ours);
     const bool moves = flux >= onset.value;
-    plot.marker({shields, std::max(flux, least)}, Marker::circle, flux > 0 ? ours : still, moves,
-                fmt::format("theta = {:.4f}: flux {:.3g} ± {:.2g}, moving fraction {:.3g}", shields, flux, error,
-                            number_in(row[3])));
+    const std::string purpose = text_in(row[4]);
+    plot.marker({shields, std::max(flux, least)}, marker_of(purpose), flux > 0 ? ours : still, moves,
+                fmt::format("{}, theta = {:.4f}: flux {:.3g} ± {:.2g}, moving fraction {:.3g}", purpose, shields, flux,
+                            error, number_in(row[3])));
   }
   return plot.svg();
 }
@@ -248,7 +259,7 @@ std::string history_figure(const Database& database, const FinishedCase& of) {
       "SELECT start_s, end_s, shields_nominal, hold FROM ramp_points WHERE case_id = ? ORDER BY hold", {of.id});
   if (samples.rows.empty() || holds.rows.empty()) return {};
   constexpr double least = 1e-3, most = 3;
-  SvgPlot plot(small_width, small_height, {"time since the ramp began  [s]", 0, number_in(holds.rows.back()[1])},
+  SvgPlot plot(small_width, small_height, {"time since the first hold began  [s]", 0, number_in(holds.rows.back()[1])},
                {"moving grains per surface grain  [–]", least, most, true});
   for (std::size_t k = 0; k < holds.rows.size(); ++k) {
     const auto& row = holds.rows[k];
@@ -257,6 +268,78 @@ std::string history_figure(const Database& database, const FinishedCase& of) {
   std::vector<PlotPoint> points;
   for (const auto& row : samples.rows) points.push_back({number_in(row[0]), std::max(least / 2, number_in(row[1]))});
   plot.line(points, {ours, 1.4, ""});
+  return plot.svg();
+}
+
+namespace {
+
+/// A hold with the curve fitted to the grains that move in it.
+struct DecayingHold {
+  std::int64_t hold;
+  std::string purpose;
+  double start, shields;                // [s], [-]
+  double time, error, first, last;      // of last + (first - last) exp(-t/time)
+  std::vector<PlotPoint> moving = {};   // grains over the time since `start`
+};
+
+/// The first ones, those of a bed that is being stopped last: there a stir dies, and not the bed's own motion.
+std::vector<DecayingHold> decaying_holds(const Database& database, const FinishedCase& of, std::size_t most) {
+  const Rows found = database.query(
+      "SELECT d.hold, r.purpose, r.start_s, r.shields, d.decay_time_s, d.decay_time_error_s, d.first, d.last "
+      "FROM motion_decay d JOIN ramp_points r USING (case_id, hold) WHERE d.case_id = ? "
+      "ORDER BY r.purpose = 'stop', d.hold LIMIT ?",
+      {of.id, static_cast<std::int64_t>(most)});
+  std::vector<DecayingHold> holds;
+  for (const auto& row : found.rows) {
+    DecayingHold& hold = holds.emplace_back(DecayingHold{std::get<std::int64_t>(row[0]), text_in(row[1]),
+                                                         number_in(row[2]), number_in(row[3]), number_in(row[4]),
+                                                         number_in(row[5]), number_in(row[6]), number_in(row[7])});
+    const Rows samples = database.query(
+        "SELECT time_s, moving_fraction * surface_grains FROM samples JOIN scenes USING (case_id) WHERE case_id = ? "
+        "AND hold = ? ORDER BY time_s",
+        {of.id, hold.hold});
+    for (const auto& sample : samples.rows)
+      hold.moving.push_back({number_in(sample[0]) - hold.start, number_in(sample[1])});
+  }
+  return holds;
+}
+
+constexpr double fewest_moving = 0.3;   // lower end of the figure's axis; samples are means over their interval
+
+std::vector<PlotPoint> fitted_curve(const DecayingHold& hold) {
+  constexpr int points = 100;
+  std::vector<PlotPoint> curve;
+  for (int n = 0; n <= points; ++n) {
+    const double t = hold.moving.back().x * n / points;
+    const double moving = hold.last + (hold.first - hold.last) * std::exp(-t / hold.time);
+    curve.push_back({t, std::max(moving, fewest_moving / 2)});
+  }
+  return curve;
+}
+
+}   // namespace
+
+std::string decay_figure(const Database& database, const FinishedCase& of) {
+  constexpr std::size_t most = 4;
+  auto holds = decaying_holds(database, of, most);
+  double end = 0, highest = 1;
+  for (DecayingHold& hold : holds)
+    for (PlotPoint& p : hold.moving) {
+      end = std::max(end, p.x), highest = std::max(highest, p.y);
+      p.y = std::max(p.y, fewest_moving / 2);
+    }
+  if (!(end > 0)) return {};
+  SvgPlot plot(740, small_height, {"time since the hold began  [s]", 0, end},
+               {"moving grains  [–]", fewest_moving, 1.3 * highest, true}, 268);
+  for (std::size_t n = 0; n < holds.size(); ++n) {
+    const DecayingHold& hold = holds[n];
+    const auto colour = palette[n % palette.size()];
+    plot.line(hold.moving, {colour, 1, ""});
+    plot.line(fitted_curve(hold), {colour, 2, "7 4"});
+    plot.legend_line(fmt::format("{} ({}), θ = {:.3g}", hold_in_words(hold.hold), hold.purpose, hold.shields),
+                     {colour, 1, ""});
+    plot.legend_line(fmt::format("T = {:.2g} ± {:.1g} s", hold.time, hold.error), {colour, 2, "7 4"});
+  }
   return plot.svg();
 }
 

@@ -22,12 +22,15 @@ struct FinishedCase {
 /// In the order of the curve, cases of the study only.
 std::vector<FinishedCase> finished_cases(const Database&);
 
-/// Tables ramp_points and thresholds: flux over measured Shields number, the criterion, the bracket.
-std::string ramp_figure(const Database&, const FinishedCase&);
+/// Tables ramp_points and thresholds: flux of every hold over its measured Shields number, the criterion, the bracket.
+std::string flux_figure(const Database&, const FinishedCase&);
 /// Table bed_statistics: porosity before the ramp and after it; fluid and grain velocity at its end.
 std::string porosity_figure(const Database&, const FinishedCase&);
 std::string velocity_figure(const Database&, const FinishedCase&);
-/// Table samples: moving fraction in time, the ramp's steps shaded.
+/// Table samples: moving fraction in time, every other hold shaded.
 std::string history_figure(const Database&, const FinishedCase&);
+/// Tables samples and motion_decay: moving grains since the beginning of a hold and the curve fitted to them, for the first
+/// holds that have one. Empty where none has.
+std::string decay_figure(const Database&, const FinishedCase&);
 
 }   // namespace bedload

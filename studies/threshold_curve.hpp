@@ -7,6 +7,7 @@
 
 #include "scheduler/database.hpp"
 #include "studies/error_budget.hpp"
+#include "studies/motion_measures.hpp"
 #include "studies/threshold_fit.hpp"
 
 namespace bedload {
@@ -72,12 +73,13 @@ std::vector<ThresholdPoint> threshold_curve(const Database&);
 /// For people: aligned columns, and the laminar band and turbulent curves at the same Galileo number beside ours; below them
 /// what counts as onset, the error budget, and what a bound that is missing and a noisy ramp mean, where there are such.
 std::string curve_as_table(const std::vector<ThresholdPoint>&, const std::vector<BudgetEntry>&);
-/// "0.1120-0.1146": where theta_50 lies, with its confidence where that is not 95 %; "-" where nothing says.
+/// "0.1120-0.1146": where theta_50 lies, with its confidence where that is not 95 %; "> 0.1120" where its upper end is open;
+/// "-" where nothing says.
 std::string interval_in_words(const ThresholdPoint&);
 /// "onset: flux >= 0.01 per surface grain and td; cells 0.5 d high".
 std::string onset_in_words(const std::vector<ThresholdPoint>&);
 /// For programs: shortest numbers that read back to the same bits, fixed order; an empty field where there is no value.
 std::string curve_as_csv(const std::vector<ThresholdPoint>&);
-std::string curve_as_json(const std::vector<ThresholdPoint>&);
+std::string curve_as_json(const std::vector<ThresholdPoint>&, const std::vector<MotionMeasures>&);
 
 }   // namespace bedload

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "studies/attempt_figure.hpp"
 #include "studies/bed_picture.hpp"
+#include "studies/report_figures.hpp"
 #include "studies/results.hpp"
 #include "studies/svg_plot.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -147,6 +150,22 @@ TEST_F(ReportTest, LabelsThresholdsOfRampsAsScreening) {
   EXPECT_EQ(page().find(">this study: ramp (screening)<"), std::string::npos);
 }
 
+// From the bound that is known to theta_50, and an arrow on the other side.
+TEST_F(ReportTest, DrawsBarsThatAreOpenAtOneEnd) {
+  add_point("a", "bracketed", 0.1, 0.09, Value());
+  const std::string html = page();
+  const double middle = 464 * 0.5, lower = 464 * (1 - std::log(9.0) / std::log(100.0));
+  std::smatch bar, arrow;
+  ASSERT_TRUE(std::regex_search(html, bar,
+                                std::regex("d='M[0-9.]+ ([0-9.]+)V([0-9.]+)[^']*' stroke='[^']*' stroke-width='1.4'")));
+  EXPECT_NEAR(std::stod(bar[1]), lower, 0.06);
+  EXPECT_NEAR(std::stod(bar[2]), middle, 0.06);
+  ASSERT_TRUE(std::regex_search(html, arrow,
+                                std::regex("d='M[0-9.]+ ([0-9.]+)V([0-9.]+)[^']*' stroke='[^']*' stroke-width='1.6'")));
+  EXPECT_NEAR(std::stod(arrow[1]), middle, 0.06);
+  EXPECT_LT(std::stod(arrow[2]), middle);   // y points down: towards higher Shields numbers
+}
+
 // The thin bar reaches from theta (1 - e) to theta (1 + e), with e the relative error of the table.
 TEST_F(ReportTest, DrawsTheSystematicErrorBesideTheInterval) {
   const auto thin_bar = [&] {
@@ -176,11 +195,11 @@ TEST_F(ReportTest, SaysARangeOnlyWhereThereIsOne) {
   EXPECT_NE(page().find("1 finished case, θc from 0.170 to 0.190<"), std::string::npos);
 }
 
-TEST_F(ReportTest, KnowsFinishedCasesWithoutARamp) {
+TEST_F(ReportTest, KnowsFinishedCasesThatSeekNoOnset) {
   add_case();
   database_.execute("DELETE FROM thresholds");
-  EXPECT_NE(page().find("1 finished case, no ramp"), std::string::npos);
-  EXPECT_NE(page().find("No finished case has a ramp"), std::string::npos);
+  EXPECT_NE(page().find("1 finished case, no onset sought"), std::string::npos);
+  EXPECT_NE(page().find("No finished case seeks an onset"), std::string::npos);
 }
 
 // The database counts holds from 0 and calls the settled bed -1; this case's profiles are of hold 1 there.
@@ -189,6 +208,73 @@ TEST_F(ReportTest, CountsHoldsFromOne) {
   const std::string html = page();
   EXPECT_NE(html.find("after hold 2<"), std::string::npos);
   EXPECT_NE(html.find("fluid, hold 2<"), std::string::npos);
+}
+
+TEST_F(ReportTest, NamesWhatItsFluxFiguresShowWhateverTheMethod) {
+  add_case();
+  EXPECT_NE(page().find("<h2>Flux of every hold</h2>"), std::string::npos);
+  EXPECT_EQ(page().find("<h2>Ramps</h2>"), std::string::npos);
+  EXPECT_EQ(occurrences(page(), "<title>ramp, theta = "), 2u);
+  database_.execute("UPDATE ramp_points SET purpose = 'staircase' WHERE hold = 1");
+  const std::string html = page();
+  const auto title = html.find("<title>staircase, theta = 0.2000");
+  ASSERT_NE(title, std::string::npos);
+  EXPECT_TRUE(html.substr(html.rfind('<', title - 1)).starts_with("<rect "));
+}
+
+TEST_F(ReportTest, HasATableOfMovers) {
+  add_case();
+  EXPECT_EQ(page().find("Movers, flux law"), std::string::npos);
+  database_.execute(
+      "INSERT INTO thresholds VALUES "
+      "('c','moved_grains',1,0,'bracketed',0.123,0.1,0.15,'ramp',NULL,NULL,0.58,4.5,NULL,NULL,NULL)");
+  database_.execute("INSERT INTO flux_laws VALUES ('c', 3, 0.104, 0.005, 1, 0.1, 4)");
+  const std::string html = page();
+  EXPECT_NE(html.find("<h2>Movers, flux law and the decay of motion</h2>"), std::string::npos);
+  EXPECT_NE(html.find("<td>set</td><td class='n'>0.1230</td>"), std::string::npos);
+  EXPECT_NE(html.find("<td class='n'>3</td><td class='n'>0.1040 +- 0.005</td>"), std::string::npos);
+  EXPECT_EQ(html.find("<br>"), std::string::npos);   // of one seed there is no range
+  database_.execute(
+      "INSERT INTO scenes SELECT 'c2', label, parameter_set, set_label, 2, diameter_m, spread, "
+      "grain_density_kg_per_m3, fluid_density_kg_per_m3, density_ratio, viscosity_m2_per_s, gravity_m_per_s2, "
+      "galileo, young_modulus_pa, grains, surface_grains, length_m, width_m, height_m, cell_x_m, cell_y_m, "
+      "cell_z_m, drag_law, dwell_s, dem_step_s, fluid_step_limit_s, retries FROM scenes");
+  database_.execute(
+      "INSERT INTO thresholds SELECT 'c2', criterion, value, decides, 'censored_above', NULL, 0.2, NULL, "
+      "method, NULL, NULL, NULL, NULL, NULL, NULL, NULL FROM thresholds WHERE criterion = 'moved_grains'");
+  EXPECT_NE(page().find("<td>set</td><td class='n'>&gt; 0.1615<br>(0.1230-&gt;0.2000)</td>"), std::string::npos);
+}
+
+// Eleven samples of 100 exp(-t/0.2 s) moving grains in a hold that begins at 1 s; the figure's axes end at 1 s and 130 grains.
+TEST_F(ReportTest, DrawsMovingGrainsWithTheDecayFittedToThem) {
+  add_case();
+  const FinishedCase of{"c", "label-c", 5e-4};
+  EXPECT_EQ(decay_figure(database_, of), "");
+  for (int n = 0; n <= 10; ++n)
+    database_.execute("INSERT INTO samples VALUES ('c', ?, 1, 0.2, 0.2, 0, ?, 0, 0, 0, 5, 0, 0, 0)",
+                      {1 + 0.1 * n, 100 * std::exp(-0.5 * n) / 244});
+  database_.execute("INSERT INTO motion_decay VALUES ('c', 1, 0.2, 0.01, 100, 0, 11)");
+  const std::string figure = decay_figure(database_, of);
+  EXPECT_NE(figure.find(">hold 2 (ramp), θ = 0.2<"), std::string::npos) << figure;
+  EXPECT_NE(figure.find(">T = 0.2 ± 0.01 s<"), std::string::npos);
+  const std::regex line("<path d='M([0-9.]+) ([0-9.]+)(L[0-9. L]*)' fill='none'");
+  std::vector<std::vector<PlotPoint>> lines;
+  for (auto at = std::sregex_iterator(figure.begin(), figure.end(), line); at != std::sregex_iterator(); ++at) {
+    auto& points = lines.emplace_back();
+    std::string path = "L" + (*at)[1].str() + " " + (*at)[2].str() + (*at)[3].str();
+    std::ranges::replace(path, 'L', ' ');
+    std::istringstream numbers(path);
+    for (PlotPoint p{}; numbers >> p.x >> p.y;) points.push_back(p);
+  }
+  ASSERT_EQ(lines.size(), 2u);
+  ASSERT_EQ(lines[0].size(), 11u);
+  EXPECT_NEAR(lines[0][0].y, 244 * (1 - std::log(100 / 0.3) / std::log(130 / 0.3)), 0.06);   // 244 pixels high
+  const std::size_t steps = lines[1].size() / 10;
+  for (std::size_t n = 0; n <= 10; ++n) {   // the samples lie on the curve
+    EXPECT_NEAR(lines[1][n * steps].x, lines[0][n].x, 0.11);
+    EXPECT_NEAR(lines[1][n * steps].y, lines[0][n].y, 0.11);
+  }
+  EXPECT_NE(page().find(figure), std::string::npos);
 }
 
 TEST_F(ReportTest, NamesEveryPublishedCurve) {

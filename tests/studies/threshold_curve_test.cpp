@@ -156,7 +156,7 @@ TEST_F(ThresholdCurveTest, PrintsTheSameBytesInWhateverOrderTheCasesFinished) {
 
 TEST_F(ThresholdCurveTest, WritesNumbersThatReadBackToTheSameBits) {
   add_seed("a", 1, 5e-4, "bracketed", 0.2, 0.1 + 0.2, 1.0 / 3);
-  const auto json = nlohmann::json::parse(curve_as_json(threshold_curve(database_)));
+  const auto json = nlohmann::json::parse(curve_as_json(threshold_curve(database_), {}));
   EXPECT_EQ(json[0]["shields_lower"].get<double>(), 0.1 + 0.2);
   EXPECT_EQ(json[0]["shields_upper"].get<double>(), 1.0 / 3);
   EXPECT_NE(curve_as_csv(threshold_curve(database_)).find(",0.30000000000000004,0.3333333333333333,"),
@@ -166,6 +166,19 @@ TEST_F(ThresholdCurveTest, WritesNumbersThatReadBackToTheSameBits) {
 TEST_F(ThresholdCurveTest, ShowsOneSidedBoundsToPeopleAsInequalities) {
   add_seed("a", 1, 5e-4, "censored_above", open_end, 0.44, open_end);
   EXPECT_NE(curve_as_table(threshold_curve(database_), error_budget(database_)).find("> 0.4400"), std::string::npos);
+}
+
+TEST(IntervalInWords, SaysWhichEndIsOpen) {
+  ThresholdPoint p;
+  p.confidence = 0.5, p.interval_lower = 0.11, p.interval_upper = 0.13;
+  EXPECT_EQ(interval_in_words(p), "0.1100-0.1300 50%");
+  p.interval_upper = open_end;
+  EXPECT_EQ(interval_in_words(p), "> 0.1100 50%");
+  std::swap(p.interval_lower, p.interval_upper);
+  p.confidence = 0.95;
+  EXPECT_EQ(interval_in_words(p), "< 0.1100");
+  p.interval_upper = open_end;
+  EXPECT_EQ(interval_in_words(p), "-");
 }
 
 TEST_F(ThresholdCurveTest, SaysWhatCountsAsOnsetOnWhichCells) {
@@ -180,7 +193,7 @@ TEST_F(ThresholdCurveTest, SaysWhatCountsAsOnsetOnWhichCells) {
   add_seed("b", 1, 5e-4, "bracketed", 0.16, 0.15, 0.18);
   EXPECT_NE(curve_as_table(threshold_curve(database_), error_budget(database_)).find("; cells 0.5 to 1 d high\n"),
             said.npos);
-  EXPECT_EQ(nlohmann::json::parse(curve_as_json(threshold_curve(database_)))[1]["criterion"], "flux");
+  EXPECT_EQ(nlohmann::json::parse(curve_as_json(threshold_curve(database_), {}))[1]["criterion"], "flux");
 }
 
 TEST_F(ThresholdCurveTest, SaysWhatAMissingBoundAndANoisyRampMean) {
