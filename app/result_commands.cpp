@@ -54,8 +54,7 @@ std::optional<BedView> view_at_onset(const std::filesystem::path& directory, con
   State state = read_checkpoint(file);
   if (!ends_at_onset(state.record, one.scene.onset)) return {};
   const auto& holds = state.record.holds;
-  auto moment =
-      fmt::format("at onset: end of hold {}, theta = {:.3g}", holds.hold.size(), holds.shields_measured.back());
+  auto moment = fmt::format("at onset: end of hold {}, θ = {:.3g}", holds.hold.size(), holds.shields_measured.back());
   return view_of(one, std::move(state), std::move(moment));
 }
 
@@ -68,7 +67,7 @@ std::optional<BedView> newest_view(const std::filesystem::path& directory, const
   });
   if (!state && broken) throw Error(ErrorKind::corrupt, "none of its checkpoints is whole");
   if (!state || state->grains.size() == 0) return {};
-  auto moment = fmt::format("after hold {}, theta = {:.3g}", state->record.holds.hold.size(), state->search.shields);
+  auto moment = fmt::format("after hold {}, θ = {:.3g}", state->record.holds.hold.size(), state->search.shields);
   return view_of(one, std::move(*state), std::move(moment));
 }
 

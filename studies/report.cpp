@@ -70,13 +70,16 @@ std::string threshold_section(const std::vector<ThresholdPoint>& curve, const st
       body);
 }
 
-/// `figure` of every case, titled with its label; cases without one are left out.
+/// `figure` of every case, titled with its label; cases without one are left out. On paper two stand side by side unless they
+/// are `wide`.
 template <class Figure>
-std::string for_each_case(const std::vector<FinishedCase>& cases, Figure&& figure) {
+std::string for_each_case(const std::vector<FinishedCase>& cases, Figure&& figure, bool wide = false) {
   std::string all;
   for (const FinishedCase& of : cases) {
     const std::string drawn = figure(of);
-    if (!drawn.empty()) all += fmt::format("<div><h3>{}</h3>{}</div>\n", escaped(of.label), scrolling(drawn));
+    if (!drawn.empty())
+      all +=
+          fmt::format("<div{}><h3>{}</h3>{}</div>\n", wide ? " class='wide'" : "", escaped(of.label), scrolling(drawn));
   }
   return all.empty() ? all : "<div class='row'>" + all + "</div>\n";
 }
@@ -120,13 +123,28 @@ std::string motion_section(const Database& database, const std::vector<FinishedC
       "a seed knows a bound alone. Figures: moving grains since a hold began (thin) and last + (first − last) "
       "exp(−t/T) fitted to them (dashed), for the first holds whose motion decays.",
       motion_table(motion_measures(database)) +
-          for_each_case(cases, [&](const FinishedCase& of) { return decay_figure(database, of); }));
+          for_each_case(
+              cases, [&](const FinishedCase& of) { return decay_figure(database, of); }, true));
 }
 
 std::string history_section(const Database& database, const std::vector<FinishedCase>& cases) {
-  return section("Motion in time",
-                 "Grains faster than 0.01 √((s − 1) g d), per surface grain. Every other hold is shaded.",
-                 for_each_case(cases, [&](const FinishedCase& of) { return history_figure(database, of); }));
+  return section(
+      "Motion and height in time",
+      "Grains faster than 0.01 √((s − 1) g d), per surface grain, and the height of the bed in diameters. Every "
+      "other hold is shaded.",
+      for_each_case(cases, [&](const FinishedCase& of) {
+        const std::string motion = history_figure(database, of), height = height_figure(database, of);
+        return motion.empty() ? motion : "<div class='row'>" + scrolling(motion) + scrolling(height) + "</div>";
+      }));
+}
+
+std::string transport_section(const Database& database) {
+  const std::string figure = transport_figure(database);
+  return section(
+      "Transport",
+      "q* = q/√((s − 1) g d<sup>3</sup>) over the measured Shields number: every hold of every packing in which "
+      "anything was transported, with its standard error.",
+      figure.empty() ? figure : scrolling(figure));
 }
 
 std::string bed_section(const std::vector<CaseViews>& beds) {
@@ -287,10 +305,10 @@ std::string report_html(const Database& database, const ReportRequest& request) 
              "header>\n",
              title, theme_style(), summary(curve, cases.size()), request.written.empty() ? "" : " · ",
              escaped(request.written), report_style) +
-         threshold_section(curve, error_budget(database), cases.size()) + flux_section(database, cases) +
-         motion_section(database, cases) + bed_section(request.beds) + history_section(database, cases) +
-         profile_section(database, cases) + model_section(database) + health_section(database) +
-         provenance_section(database, request) + "</main></body></html>\n";
+         threshold_section(curve, error_budget(database), cases.size()) + transport_section(database) +
+         flux_section(database, cases) + motion_section(database, cases) + bed_section(request.beds) +
+         history_section(database, cases) + profile_section(database, cases) + model_section(database) +
+         health_section(database) + provenance_section(database, request) + "</main></body></html>\n";
 }
 
 }   // namespace bedload

@@ -34,12 +34,21 @@ std::size_t rank_among(const std::vector<double>& distinct, double value) {
   return static_cast<std::size_t>(std::find(distinct.begin(), distinct.end(), value) - distinct.begin());
 }
 
-std::vector<double> distinct_values(const std::vector<ThresholdPoint>& curve, double ThresholdPoint::*member) {
-  std::vector<double> values;
-  for (const ThresholdPoint& p : curve) values.push_back(p.*member);
+/// In rising order.
+std::vector<double> distinct(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
+}
+
+std::vector<double> distinct_values(const std::vector<ThresholdPoint>& curve, double ThresholdPoint::*member) {
+  std::vector<double> values;
+  for (const ThresholdPoint& p : curve) values.push_back(p.*member);
+  return distinct(values);
+}
+
+std::string scene_in_words(double diameter, double density_ratio) {
+  return fmt::format("d = {:.4g} mm, s = {:.4g}", diameter * 1e3, density_ratio);
 }
 
 void draw_published(SvgPlot& plot, double low, double high) {
@@ -109,7 +118,7 @@ std::string threshold_figure(const std::vector<ThresholdPoint>& curve) {
     for (const double d : diameters)
       for (const double s : densities)
         if (has([&](const ThresholdPoint& p) { return p.diameter == d && p.density_ratio == s; }))
-          plot.legend_marker(fmt::format("d = {:.4g} mm, s = {:.4g}", d * 1e3, s), shape_of(s), colour_of(d), true);
+          plot.legend_marker(scene_in_words(d, s), shape_of(s), colour_of(d), true);
   }
   plot.legend_heading("laminar beds, measured");
   plot.legend_shade(fmt::format("{} ± {}", laminar_band.shields, laminar_band.half_width), band, 0.35);
@@ -252,22 +261,80 @@ std::string velocity_figure(const Database& database, const FinishedCase& of) {
   return plot.svg();
 }
 
-std::string history_figure(const Database& database, const FinishedCase& of) {
-  const Rows samples =
-      database.query("SELECT time_s, moving_fraction, hold FROM samples WHERE case_id = ? ORDER BY time_s", {of.id});
-  const Rows holds = database.query(
-      "SELECT start_s, end_s, shields_nominal, hold FROM ramp_points WHERE case_id = ? ORDER BY hold", {of.id});
-  if (samples.rows.empty() || holds.rows.empty()) return {};
-  constexpr double least = 1e-3, most = 3;
+namespace {
+
+/// A quantity of table samples over time, the holds behind it; empty where nothing was sampled.
+std::string figure_in_time(const Database& database, const FinishedCase& of, const std::vector<PlotPoint>& points,
+                           const PlotAxis& axis) {
+  const Rows holds = database.query("SELECT start_s, end_s FROM ramp_points WHERE case_id = ? ORDER BY hold", {of.id});
+  if (points.empty() || holds.rows.empty()) return {};
   SvgPlot plot(small_width, small_height, {"time since the first hold began  [s]", 0, number_in(holds.rows.back()[1])},
-               {"moving grains per surface grain  [–]", least, most, true});
-  for (std::size_t k = 0; k < holds.rows.size(); ++k) {
-    const auto& row = holds.rows[k];
-    if (k % 2 == 1) plot.shade({number_in(row[0]), least}, {number_in(row[1]), most}, "var(--known)", 0.12);
-  }
-  std::vector<PlotPoint> points;
-  for (const auto& row : samples.rows) points.push_back({number_in(row[0]), std::max(least / 2, number_in(row[1]))});
+               axis);
+  for (std::size_t k = 1; k < holds.rows.size(); k += 2)
+    plot.shade({number_in(holds.rows[k][0]), axis.low}, {number_in(holds.rows[k][1]), axis.high}, "var(--known)", 0.12);
   plot.line(points, {ours, 1.4, ""});
+  return plot.svg();
+}
+
+std::vector<PlotPoint> samples_of(const Database& database, const FinishedCase& of, std::string_view column) {
+  std::vector<PlotPoint> points;
+  const Rows found =
+      database.query(fmt::format("SELECT time_s, {} FROM samples WHERE case_id = ? ORDER BY time_s", column), {of.id});
+  for (const auto& row : found.rows) points.push_back({number_in(row[0]), number_in(row[1])});
+  return points;
+}
+
+}   // namespace
+
+std::string history_figure(const Database& database, const FinishedCase& of) {
+  constexpr double least = 1e-3, most = 3;
+  auto points = samples_of(database, of, "moving_fraction");
+  for (PlotPoint& p : points) p.y = std::max(least / 2, p.y);
+  return figure_in_time(database, of, points, {"moving grains per surface grain  [–]", least, most, true});
+}
+
+std::string height_figure(const Database& database, const FinishedCase& of) {
+  auto points = samples_of(database, of, "bed_height_m");
+  if (points.empty()) return {};
+  for (PlotPoint& p : points) p.y /= of.diameter;
+  const auto [low, high] = std::ranges::minmax(points, {}, &PlotPoint::y);
+  constexpr double margin = 0.05;   // [d]: a bed that rests is a line in the middle
+  return figure_in_time(database, of, points, {"bed height z_b/d  [–]", low.y - margin, high.y + margin});
+}
+
+std::string transport_figure(const Database& database) {
+  if (!has_table(database, "transport_curve")) return {};
+  const Rows found = database.query(fmt::format(
+      "SELECT diameter_m, density_ratio, shields, transport, transport_error, label FROM transport_curve WHERE "
+      "transport > 0 AND shields > 0 AND {} AND case_id NOT IN (SELECT case_id FROM variations)",
+      in_study(database)));
+  if (found.rows.empty()) return {};
+  std::vector<double> diameters, densities, shields, transport;
+  for (const auto& row : found.rows) {
+    diameters.push_back(number_in(row[0])), densities.push_back(number_in(row[1]));
+    shields.push_back(number_in(row[2])), transport.push_back(number_in(row[3]));
+  }
+  const auto distinct_diameters = distinct(diameters), distinct_densities = distinct(densities);
+  const auto [low, high] = std::ranges::minmax(shields);
+  const auto [least, most] = std::ranges::minmax(transport);
+  SvgPlot plot(940, 400, {"measured Shields number θ  [–]", low / 1.12, high * 1.12, true},
+               {"transport q*  [–]", least / 2, most * 2, true}, 210);
+  plot.legend_heading("this study");
+  for (const double d : distinct_diameters)
+    for (const double s : distinct_densities)
+      if (std::ranges::any_of(found.rows,
+                              [&](const auto& row) { return number_in(row[0]) == d && number_in(row[1]) == s; }))
+        plot.legend_marker(scene_in_words(d, s), shapes[rank_among(distinct_densities, s) % shapes.size()],
+                           palette[rank_among(distinct_diameters, d) % palette.size()], true);
+  for (std::size_t n = 0; n < found.rows.size(); ++n) {
+    const auto colour = palette[rank_among(distinct_diameters, diameters[n]) % palette.size()];
+    const double error = number_in(found.rows[n][4]);
+    plot.vertical_bar(shields[n], std::max(least / 2, transport[n] - error), transport[n] + error, colour);
+    plot.marker({shields[n], transport[n]}, shapes[rank_among(distinct_densities, densities[n]) % shapes.size()],
+                colour, true,
+                fmt::format("{}: q* = {:.3g} ± {:.2g} at theta = {:.4f}", text_in(found.rows[n][5]), transport[n],
+                            error, shields[n]));
+  }
   return plot.svg();
 }
 

@@ -29,6 +29,10 @@ std::string porosity_figure(const Database&, const FinishedCase&);
 std::string velocity_figure(const Database&, const FinishedCase&);
 /// Table samples: moving fraction in time, every other hold shaded.
 std::string history_figure(const Database&, const FinishedCase&);
+/// Table samples: bed height in time, in diameters, every other hold shaded.
+std::string height_figure(const Database&, const FinishedCase&);
+/// View transport_curve: q* over the measured Shields number of every hold that transports, coloured by diameter.
+std::string transport_figure(const Database&);
 /// Tables samples and motion_decay: moving grains since the beginning of a hold and the curve fitted to them, for the first
 /// holds that have one. Empty where none has.
 std::string decay_figure(const Database&, const FinishedCase&);

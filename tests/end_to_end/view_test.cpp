@@ -146,7 +146,7 @@ TEST_F(View, ShowsTheBedAtOnset) {
   const auto at_rest = index.find("grains-bed.hdf"), moving = index.find("grains-onset.hdf");
   EXPECT_LT(at_rest, moving) << index;
   EXPECT_NE(moving, std::string::npos) << index;
-  EXPECT_NE(contents(here() / "tiny" / "report.html").find("at onset: end of hold 1, theta = "), std::string::npos);
+  EXPECT_NE(contents(here() / "tiny" / "report.html").find("at onset: end of hold 1, θ = "), std::string::npos);
 }
 
 void damage(const fs::path& file) {

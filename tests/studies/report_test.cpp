@@ -245,6 +245,35 @@ TEST_F(ReportTest, HasATableOfMovers) {
   EXPECT_NE(page().find("<td>set</td><td class='n'>&gt; 0.1615<br>(0.1230-&gt;0.2000)</td>"), std::string::npos);
 }
 
+// One hold with transport, and one without.
+TEST_F(ReportTest, DrawsTransportOverShieldsNumber) {
+  EXPECT_EQ(transport_figure(database_), "");
+  add_case();
+  EXPECT_EQ(transport_figure(database_), "");
+  database_.execute("UPDATE ramp_points SET transport = 0.5, transport_error = 0.1 WHERE hold = 1");
+  const std::string figure = transport_figure(database_);
+  EXPECT_EQ(occurrences(figure, "<title>label-c: q* = 0.5 ± 0.1 at theta = 0.2000<"), 1u);
+  EXPECT_EQ(occurrences(figure, "<title>"), 1u);
+  EXPECT_NE(figure.find(">d = 0.5 mm, s = 2<"), std::string::npos);
+  EXPECT_NE(page().find(figure), std::string::npos);
+  database_.execute("INSERT INTO variations VALUES ('c', 'mesh', 'b')");
+  EXPECT_EQ(transport_figure(database_), "");
+}
+
+// A bed that rises from 2 mm to 3 mm, four diameters to six, by two samples.
+TEST_F(ReportTest, DrawsTheHeightOfTheBedInTime) {
+  add_case();
+  EXPECT_EQ(height_figure(database_, {"c", "label-c", 5e-4}), "");
+  database_.execute(
+      "INSERT INTO samples VALUES ('c', 0.5, 0, 0.1, 0.1, 0, 0, 0, 2e-3, 0, 5, 0, 0, 0),"
+      "('c', 1.5, 1, 0.2, 0.2, 0, 0, 0, 3e-3, 0, 5, 0, 0, 0)");
+  const std::string figure = height_figure(database_, {"c", "label-c", 5e-4});
+  std::smatch line;
+  ASSERT_TRUE(std::regex_search(figure, line, std::regex("d='M[0-9.]+ ([0-9.]+)L[0-9.]+ ([0-9.]+)' fill='none'")));
+  EXPECT_NEAR(std::stod(line[1]), 244 * (1 - 0.05 / 2.1), 0.06);   // 244 pixels for 3.95 to 6.05 diameters
+  EXPECT_NEAR(std::stod(line[2]), 244 * 0.05 / 2.1, 0.06);
+}
+
 // Eleven samples of 100 exp(-t/0.2 s) moving grains in a hold that begins at 1 s; the figure's axes end at 1 s and 130 grains.
 TEST_F(ReportTest, DrawsMovingGrainsWithTheDecayFittedToThem) {
   add_case();
