@@ -95,10 +95,10 @@ std::string speed_scale_bar() {
         "<path d='M{0:.1f} 14v5' stroke='var(--dash)'/><text x='{0:.1f}' y='31' text-anchor='middle'>{1}</text>",
         24 + 65.0 * double(n), labels[n]);
   return fmt::format(
-      "<svg class='bed' viewBox='0 0 560 36' width='560' height='36' style='min-width:476px'><defs><linearGradient "
+      "<svg class='bed' viewBox='0 0 330 54' width='330' height='54'><defs><linearGradient "
       "id='speed'>{}</linearGradient></defs>"
       "<rect x='24' y='2' width='260' height='12' fill='url(#speed)' stroke='var(--frame)' stroke-width='0.6'/>{}"
-      "<text x='320' y='13'>grain speed / √((s − 1) g d)</text></svg>",
+      "<text x='24' y='49'>grain speed / √((s − 1) g d)</text></svg>",
       stops, ticks);
 }
 

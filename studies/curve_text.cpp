@@ -72,9 +72,12 @@ std::string remarks(const std::vector<ThresholdPoint>& curve) {
   const auto any = [&](auto&& is) { return std::ranges::any_of(curve, is); };
   std::string text;
   if (any([](const ThresholdPoint& p) { return !std::isfinite(p.lower); }))
-    text += "lower -: a seed whose first hold moves already, or stirs; a ramp that begins lower finds the bound\n";
+    text +=
+        "lower -: a seed whose first hold moves already, or stirs; a ramp or staircase that begins lower finds the "
+        "bound\n";
   if (any([](const ThresholdPoint& p) { return !std::isfinite(p.upper); }))
-    text += "upper -: a seed whose ramp ends before its bed moves in two holds running; a higher end finds the bound\n";
+    text +=
+        "upper -: a seed whose ramp or staircase ends before its bed moves for good; a higher end finds the bound\n";
   if (any([](const ThresholdPoint& p) { return p.noisy > 0; }))
     text +=
         "noisy: a hold moved and the next one did not; lower lies before that first stir. Longer holds, or a larger "

@@ -39,7 +39,7 @@ td code { word-break: break-all; font-size: 12px; color: var(--soft); }
   body { background: none; font-size: 10pt; } main { max-width: none; padding: 0; } section { border: 0; padding: 0; }
   .scroll { overflow: visible; } svg { min-width: 0 !important; } table { font-size: 8pt; } th, td { padding-right: 7px; }
   pre { white-space: pre-wrap; } .row > div { flex: 0 1 47%; } .row > div:has(.row), .row > div.wide { flex-basis: 100%; }
-  svg, tr, .row > div { break-inside: avoid; } h2, h3, .caption { break-after: avoid; }
+  svg, tr, p.caption, .row > div { break-inside: avoid; } h2, h3, .caption { break-after: avoid; }
   * { print-color-adjust: exact; }
 }
 )css";
