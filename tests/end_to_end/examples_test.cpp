@@ -55,7 +55,7 @@ TEST(Examples, ThresholdsOfLaminarBedsSayWhereTheyAreOutOfRange) {
         Expected{"trade-laminar",
                  "38 cases (38 new",
                  "trade-laminar-dem0.45R-s2 new 300",
-                 {bottom, lift, left_out, left_out, left_out}},
+                 {bottom, lift, left_out, left_out, left_out, left_out}},
         Expected{"slope-threshold", "16 cases (16 new", "slope8deg 0.000370766 m 2000 kg/m3 1e-05 m2/s", {lift}}}) {
     const auto plan = plan_of(name);
     EXPECT_EQ(plan.code, 0) << plan.err;
@@ -70,6 +70,23 @@ TEST(Examples, ThresholdsOfLaminarBedsSayWhereTheyAreOutOfRange) {
       EXPECT_LT(said.find(warning, at), said.find("warning: ", at + 1)) << name << ": " << warning;
     }
     EXPECT_EQ(said.find("warning: ", at + 1), said.npos) << name;
+  }
+}
+
+// Everything that a column can carry is on, turbulence for every size.
+TEST(Examples, SandInWaterIsATurbulentColumn) {
+  for (const auto& [name, cases, warnings] :
+       {std::tuple{"sand-in-water", "60 cases (60 new", 4}, {"trade-sand", "32 cases (32 new", 6}}) {
+    const auto plan = plan_of(name);
+    EXPECT_EQ(plan.code, 0) << plan.err;
+    const auto said = unwrapped(plan.out);
+    EXPECT_NE(said.find(cases), said.npos) << said;
+    EXPECT_NE(said.find("fluid = column yes"), said.npos) << said;
+    for (const auto* term : {"added_mass yes yes", "viscous_torque yes yes", "turbulence yes yes"})
+      EXPECT_NE(said.find(term), said.npos) << name << ": " << term;
+    int found = 0;
+    for (std::size_t at = said.find("warning: "); at != said.npos; at = said.find("warning: ", at + 1)) ++found;
+    EXPECT_EQ(found, warnings) << said;
   }
 }
 
