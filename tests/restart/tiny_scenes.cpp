@@ -158,6 +158,7 @@ TinyScene sheared() {
 TinyScene frozen_below() {
   Scene scene = lid_driven().scene;
   scene.frozen_depth = diameter;
+  scene.bed.grains.rolling_friction = 0.1, scene.terms.wet_restitution = true;   // contacts that remember all they can
   scene.drive.levels = {0.05, 1.5};
   validate(scene);
   return {"frozen", scene};
