@@ -50,18 +50,27 @@ class LocalSurface {
 
 }   // namespace
 
-// Both are sorted, and no pair is in both.
+// Both are sorted, and no pair is in both. Contacts that fell asleep as the bed had been packed have no damping and no rolling spring yet,
+// where those that were awake since have got them.
 ContactHistory all_contacts(const ContactHistory& contacts, const ContactHistory& asleep) {
+  constexpr double not_chosen = -1;
   ContactHistory all;
+  const bool damped = !contacts.damping.empty() || !asleep.damping.empty();
+  const bool rolls = !contacts.rolling.empty() || !asleep.rolling.empty();
+  const auto add = [&](const ContactHistory& from, std::size_t k) {
+    append(all, from, k, from.lower[k], from.higher[k]);
+    if (damped && from.damping.empty()) all.damping.push_back(not_chosen);
+    if (rolls && from.rolling.empty()) all.rolling.push_back({});
+  };
   std::size_t n = 0;
   const auto precedes = [&](std::size_t k) {
     return std::pair(asleep.lower[n], asleep.higher[n]) < std::pair(contacts.lower[k], contacts.higher[k]);
   };
   for (std::size_t k = 0; k < contacts.size(); ++k) {
-    for (; n < asleep.size() && precedes(k); ++n) append(all, asleep, n, asleep.lower[n], asleep.higher[n]);
-    append(all, contacts, k, contacts.lower[k], contacts.higher[k]);
+    for (; n < asleep.size() && precedes(k); ++n) add(asleep, n);
+    add(contacts, k);
   }
-  for (; n < asleep.size(); ++n) append(all, asleep, n, asleep.lower[n], asleep.higher[n]);
+  for (; n < asleep.size(); ++n) add(asleep, n);
   return all;
 }
 

@@ -66,6 +66,17 @@ TEST(FrozenGrains, LieDeeperThanAskedForAndKeepWhatTheyRemember) {
   EXPECT_EQ(one.asleep.size(), 0u);
 }
 
+/// A bed is packed dry, without rolling springs; what is awake gets both with the first wet step.
+TEST(FrozenGrains, WakeWithoutWhatTheyNeverHad) {
+  Columns one(1);
+  one.freeze(2 * d);
+  one.contacts.damping = {0.3, 0.4}, one.contacts.rolling = {{1, 0, 0}, {2, 0, 0}};
+  thaw(one.grains, one.contacts, one.asleep);
+  EXPECT_EQ(one.contacts.lower, (std::vector<std::uint32_t>{0, 0, 1, 2}));
+  EXPECT_EQ(one.contacts.damping, (std::vector<double>{-1, -1, 0.3, 0.4})) << "-1: to be chosen";
+  EXPECT_EQ(one.contacts.rolling, (std::vector<Vec3>{{}, {}, {1, 0, 0}, {2, 0, 0}}));
+}
+
 TEST(FrozenGrains, WakeAsTheBedBesideThemIsScoured) {
   Columns three(3);
   three.freeze(2 * d);
