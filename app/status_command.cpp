@@ -16,6 +16,7 @@
 #include "scheduler/progress.hpp"
 #include "studies/case_file.hpp"
 #include "studies/plan.hpp"
+#include "studies/results.hpp"
 #include "studies/study_directory.hpp"
 
 namespace bedload {
@@ -108,6 +109,8 @@ void show(const StudyOptions& options, const StudyPlace& place) {
                              : "no `bedload run` is at work");
   }
   fmt::print("{}", printed(case_rows(all), options.form));
+  const std::string unsteady = options.form == Form::table ? unsteady_holds(database) : "";
+  if (!unsteady.empty()) fmt::print("\nwarning: {}\n", unsteady);
   std::fflush(stdout);
 }
 

@@ -16,9 +16,9 @@ namespace bedload {
 
 namespace {
 
-constexpr double blocks_per_half = 5;   // for the standard error of the flux: each a few grain times long
-constexpr double not_known =
-    -1;   // a momentum residual where walls or fixed grains take part unseen, or an imposed flow
+constexpr double blocks_per_half = 5;      // for the standard error of the flux: each a few grain times long
+constexpr double instants_per_half = 64;   // of the profiles: under a grain time apart, yet a small part of the steps
+constexpr double not_known = -1;   // a residual where walls or fixed grains take part unseen, or an imposed flow
 
 double density_ratio(const Scene& scene) { return scene.bed.grains.density / scene.bed.fluid.density; }
 
@@ -75,6 +75,22 @@ BedRecorder::BedRecorder(const Scene& scene)
       grain_time_(grain_time_of(scene)),
       momentum_of_(scene) {}
 
+void BedRecorder::begin_hold(State& state) const {
+  Search& search = state.search;
+  search.hold_start = state.clock.time;
+  search.next_sample = search.hold_start + scene_.record.every;
+  search.half = search.sample = {};
+  search.health = {};
+  search.blocks = search.block_events = search.block_events_squared = 0;
+  search.hops = {};
+  search.profiles = {};
+  std::fill(state.grains.travel.begin(), state.grains.travel.end(), 0.0);
+  std::fill(state.grains.moved.begin(), state.grains.moved.end(), std::uint8_t(0));
+  begin_hops(state.grains, search.hold_start, rest_rule(), state.hops);
+}
+
+RestRule BedRecorder::rest_rule() const { return {slow_speed(), grain_time_, scene_.bed.grains.diameter}; }
+
 void BedRecorder::before_step(State& state) {
   Search& search = state.search;
   in_last_half_ = state.clock.time - search.hold_start >= search.duration / 2;
@@ -85,6 +101,7 @@ void BedRecorder::before_step(State& state) {
     if (open_half) search.half = opened;
     if (open_sample) search.sample = opened;
   }
+  time_before_ = state.clock.time;
   x_before_.resize(state.grains.size());
   for (std::size_t p = 0; p < x_before_.size(); ++p) x_before_[p] = state.grains.position[p].x;
 }
@@ -94,12 +111,16 @@ bool BedRecorder::after_step(State& state, const StepHealth& health, const StepB
   const double period = scene_.grid.periodic(0) ? scene_.bed.length.x : 0;
   const double events = double(count_events(state.grains, x_before_, period, scene_.bed.grains.diameter));
   const double moving = double(count_moving(state.grains, speed_scale_)) / surface_grains_;
+  if (grain_time_ > 0)
+    follow_hops(state.grains, x_before_, period, time_before_, state.clock.time, rest_rule(), state.hops,
+                in_last_half_ ? &search.hops : nullptr);
   const double on_bed = books.on_grains.x + books.on_bottom.x, outer = outer_force(state, books);
   const auto add_to = [&](Window& window) {
     window.duration += health.dt;
     window.events += events;
     window.moving_time += moving * health.dt;
     window.bed_impulse += on_bed * health.dt;
+    window.lid_impulse += (books.driving.x - books.on_lid.x) * health.dt;
     window.outer_impulse += outer * health.dt;
   };
   add_to(search.sample);
@@ -107,6 +128,9 @@ bool BedRecorder::after_step(State& state, const StepHealth& health, const StepB
     add_to(search.half);
     search.block_events += events;
     close_block(state);
+    const double spacing = search.duration / 2 / instants_per_half;
+    if (state.clock.time >= search.hold_start + search.duration / 2 + (search.profiles.instants + 1) * spacing)
+      add_profile(state, search.profiles);
   }
   add(health, search.health);
   const bool sampled = state.clock.time >= search.next_sample;
@@ -144,12 +168,26 @@ double BedRecorder::flux(double events, double duration) const {
   return grain_time_ > 0 ? events * grain_time_ / (surface_grains_ * duration) : 0;
 }
 
+/// Of what drives the mixture, the part below z_b [N].
+double BedRecorder::driven_below(const Search& search) const {
+  return scene_.bed.fluid.density * search.gradient * area_ * search.bed_height;
+}
+
 /// tau_b A = force on grains + force on the bottom + d/dt of the fluid's momentum below z_b - the drive below z_b.
 double BedRecorder::measured_shields(const Search& search, const Window& window, const StreamwiseMomentum& now) const {
   if (stress_scale_ <= 0 || scene_.grid.periodic(2)) return 0;
-  const double driven = scene_.bed.fluid.density * search.gradient * area_ * search.bed_height;
-  const double force = (window.bed_impulse + now.fluid_below - window.bed_fluid_momentum) / window.duration - driven;
+  const double force =
+      (window.bed_impulse + now.fluid_below - window.bed_fluid_momentum) / window.duration - driven_below(search);
   return force / (area_ * stress_scale_);
+}
+
+/// tau_b A = force of the lid on the fluid + the drive above z_b: what measured_shields is but for the d/dt of the momentum of
+/// the fluid above z_b, where that momentum has nowhere else to go; 0 where it has.
+double BedRecorder::lid_shields(const Search& search, const Window& window) const {
+  const StaggeredGrid& grid = scene_.grid;
+  const bool seen = scene_.fluid != FluidRung::profile && grid.periodic(0) && grid.periodic(1) && !grid.periodic(2);
+  if (!seen || stress_scale_ <= 0) return 0;
+  return (window.lid_impulse / window.duration - driven_below(search)) / (area_ * stress_scale_);
 }
 
 /// What the momentum of fluid and grains did beyond the forces from outside, in units of a Shields number.
@@ -242,6 +280,9 @@ void BedRecorder::close_hold(State& state) {
   row.start.push_back(search.hold_start);
   row.end.push_back(state.clock.time);
   row.shields_measured.push_back(measured_shields(search, window, now));
+  const double lid = lid_shields(search, window), on_bed = row.shields_measured.back();
+  row.shields_lid.push_back(lid);
+  row.stress_residual.push_back(lid != 0 && on_bed != 0 ? std::abs(lid / on_bed - 1) : not_known);
   row.lid_speed.push_back(search.lid_speed);
   row.gradient.push_back(search.gradient);
   row.flux.push_back(flux(window.events, window.duration));
@@ -249,7 +290,34 @@ void BedRecorder::close_hold(State& state) {
   row.moving_fraction.push_back(window.moving_time / window.duration);
   row.momentum_residual.push_back(momentum_residual(state.grains, window, now));
   append(double(search.hold), search.health, state.record.health);
-  record_profiles_of(state, double(search.hold));
+  record_hops(state);
+  if (search.profiles.instants == 0) add_profile(state, search.profiles);   // a hold of a step or two
+  record_profiles(search.profiles, scene_.bed.length, double(search.hold), state.record.profiles);
+}
+
+void BedRecorder::record_hops(State& state) const {
+  const double hold = double(state.search.hold);
+  const HopSums& sums = state.search.hops;
+  BedRecord::Hops& row = state.record.hops;
+  row.hold.push_back(hold);
+  row.duration.push_back(state.search.half.duration);
+  row.entrained.push_back(sums.entrained), row.deposited.push_back(sums.deposited);
+  row.hops.push_back(sums.hop_length.count());
+  row.hop_length.push_back(sums.hop_length.mean());
+  row.hop_length_deviation.push_back(sums.hop_length.standard_deviation());
+  row.hop_duration.push_back(sums.hop_duration.mean());
+  row.hop_duration_deviation.push_back(sums.hop_duration.standard_deviation());
+  row.rests.push_back(sums.rest_time.count());
+  row.rest_time.push_back(sums.rest_time.mean());
+  row.rest_time_deviation.push_back(sums.rest_time.standard_deviation());
+  BedRecord::HopHistograms& bins = state.record.hop_histograms;
+  for (std::size_t bin = 0; bin < Spread::bins; ++bin) {
+    bins.hold.push_back(hold);
+    bins.lower.push_back(Spread::lower_edge(bin));
+    bins.by_length.push_back(sums.hop_length.histogram[bin]);
+    bins.by_duration.push_back(sums.hop_duration.histogram[bin]);
+    bins.rests.push_back(sums.rest_time.histogram[bin]);
+  }
 }
 
 double BedRecorder::slow_speed() const { return moving_speed(speed_scale_); }
@@ -259,12 +327,13 @@ void BedRecorder::record_settled_bed(State& state) const {
   auto& settled = state.record.settled;
   settled.solid_fraction = 1 - bed_surface(state.grains, scene_.bed.length, scene_.bed.grains.diameter).porosity;
   settled.coordination = coordination(state.contacts, state.grains.size());
-  record_profiles_of(state, before_the_ramp);
+  ProfileSums now;
+  add_profile(state, now);
+  record_profiles(now, scene_.bed.length, before_the_ramp, state.record.profiles);
 }
 
-void BedRecorder::record_profiles_of(State& state, double hold) const {
-  record_profiles(state.grains, state.fluid, scene_.grid, scene_.bed.grains.diameter, state.search.lid_speed, hold,
-                  state.record.profiles);
+void BedRecorder::add_profile(const State& state, ProfileSums& sums) const {
+  add_instant(state.grains, state.fluid, scene_.grid, scene_.bed.grains.diameter, state.search.lid_speed, sums);
 }
 
 }   // namespace bedload

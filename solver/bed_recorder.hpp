@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "solver/bed/grain_hops.hpp"
 #include "solver/bed/onset_search.hpp"
 #include "solver/coupler.hpp"
 #include "solver/mixture_momentum.hpp"
@@ -14,6 +15,8 @@ class BedRecorder {
  public:
   explicit BedRecorder(const Scene&);
 
+  /// When the hold's flow has been imposed: no sums yet, and every grain rests or moves.
+  void begin_hold(State&) const;
   /// Before a step: begins the windows that are due and notes where the grains are.
   void before_step(State&);
   /// After a step: counts events, adds forces, and writes a row of samples and tracks when one is due: then true.
@@ -26,13 +29,17 @@ class BedRecorder {
   void record_settled_bed(State&) const;
 
  private:
-  void record_profiles_of(State&, double hold) const;
+  void add_profile(const State&, ProfileSums&) const;
   void close_block(State&) const;
   HoldVerdict verdict_of(const State&) const;
   void record_sample(State&, const StepHealth&);
   void record_tracks(State&) const;
   double outer_force(const State&, const StepBooks&) const;
   double flux(double events, double duration) const;
+  double driven_below(const Search&) const;
+  double lid_shields(const Search&, const Window&) const;
+  RestRule rest_rule() const;
+  void record_hops(State&) const;
   double measured_shields(const Search&, const Window&, const StreamwiseMomentum& now) const;
   double momentum_residual(const Grains&, const Window&, const StreamwiseMomentum& now) const;
 
@@ -45,6 +52,7 @@ class BedRecorder {
 
   MixtureMomentum momentum_of_;
   std::vector<double> x_before_;
+  double time_before_ = 0;
   bool in_last_half_ = false;   // the step under way; set by before_step
 };
 

@@ -173,6 +173,7 @@ void Experiment::Parts::end_shear(State& state) {
   recorder.close_hold(state);
   const double flux = state.record.holds.flux.back();
   state.record = {};
+  state.hops = {};
   state.record.settled.shear_flux = flux;
   thaw(state.grains, state.contacts, state.asleep);
   state.fluid = initial_flow(scene);
@@ -260,13 +261,7 @@ void Experiment::Parts::begin_hold(State& state) {
   search.through_flow = flow.through_flow;
 
   search.hold_begun = 1;
-  search.hold_start = state.clock.time;
-  search.next_sample = search.hold_start + scene.record.every;
-  search.half = search.sample = {};
-  search.health = {};
-  search.blocks = search.block_events = search.block_events_squared = 0;
-  std::fill(state.grains.travel.begin(), state.grains.travel.end(), 0.0);
-  std::fill(state.grains.moved.begin(), state.grains.moved.end(), std::uint8_t(0));
+  recorder.begin_hold(state);
 }
 
 /// Fluid, grains and contacts; the clock, the search and the record go on.

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <string>
 
+#include "solver/bed/bed_profiles.hpp"
 #include "solver/bed/bed_record.hpp"
+#include "solver/bed/grain_hops.hpp"
 #include "solver/fluid/fluid_state.hpp"
 #include "solver/grains/contact_history.hpp"
 #include "solver/grains/grains.hpp"
@@ -26,6 +28,7 @@ struct Window {
   double events = 0;               // times a grain passed another d/2 downstream [-]
   double moving_time = 0;          // integral of the moving fraction [s]
   double bed_impulse = 0;          // integral of the horizontal force of the fluid on grains and bottom [N s]
+  double lid_impulse = 0;          // integral of the horizontal force on the fluid by lid and drive [N s]
   double outer_impulse = 0;        // integral of all horizontal forces from outside on fluid and grains [N s]
   double bed_fluid_momentum = 0;   // of the fluid below z_b when the window began [kg m/s]
   double momentum = 0;             // of all fluid and grains when the window began [kg m/s]
@@ -55,6 +58,8 @@ struct Search {
   double blocks = 0;                 // finished parts of the last half [-]
   double block_events = 0;           // events of the part under way [-]
   double block_events_squared = 0;   // sum over finished parts, for the standard error [-]
+  HopSums hops;                      // of the last half of the hold
+  ProfileSums profiles;              // of the last half of the hold
   bool operator==(const Search&) const = default;
 };
 
@@ -65,6 +70,7 @@ struct State {
   Grains grains;
   ContactHistory contacts;
   ContactHistory asleep;   // contacts between grains that are frozen (bed/frozen_grains)
+  GrainHops hops;          // of the hold under way; empty before the first
   Search search;
   BedRecord record;
 
@@ -113,6 +119,12 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("asleep/damping", s.asleep.damping, "1");
   visit("asleep/rolling", s.asleep.rolling, "rad");
 
+  visit("hops/resting", s.hops.resting, "1");
+  visit("hops/last_fast", s.hops.last_fast, "s");
+  visit("hops/left_rest", s.hops.left_rest, "s");
+  visit("hops/way", s.hops.way, "m");
+  visit("hops/way_when_fast", s.hops.way_when_fast, "m");
+
   visit("search/phase", s.search.phase, "1");
   visit("search/hold", s.search.hold, "1");
   visit("search/hold_begun", s.search.hold_begun, "1");
@@ -131,6 +143,7 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("search/half/events", s.search.half.events, "1");
   visit("search/half/moving_time", s.search.half.moving_time, "s");
   visit("search/half/bed_impulse", s.search.half.bed_impulse, "N s");
+  visit("search/half/lid_impulse", s.search.half.lid_impulse, "N s");
   visit("search/half/outer_impulse", s.search.half.outer_impulse, "N s");
   visit("search/half/bed_fluid_momentum", s.search.half.bed_fluid_momentum, "kg m/s");
   visit("search/half/momentum", s.search.half.momentum, "kg m/s");
@@ -138,6 +151,7 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("search/sample/events", s.search.sample.events, "1");
   visit("search/sample/moving_time", s.search.sample.moving_time, "s");
   visit("search/sample/bed_impulse", s.search.sample.bed_impulse, "N s");
+  visit("search/sample/lid_impulse", s.search.sample.lid_impulse, "N s");
   visit("search/sample/outer_impulse", s.search.sample.outer_impulse, "N s");
   visit("search/sample/bed_fluid_momentum", s.search.sample.bed_fluid_momentum, "kg m/s");
   visit("search/sample/momentum", s.search.sample.momentum, "kg m/s");
@@ -147,6 +161,26 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("search/blocks", s.search.blocks, "1");
   visit("search/block_events", s.search.block_events, "1");
   visit("search/block_events_squared", s.search.block_events_squared, "1");
+
+  auto& c = s.search.hops;
+  visit("search/hops/entrained", c.entrained, "1");
+  visit("search/hops/deposited", c.deposited, "1");
+  visit("search/hops/hop_length/sum", c.hop_length.sum, "m");
+  visit("search/hops/hop_length/squares", c.hop_length.squares, "m2");
+  visit("search/hops/hop_length/histogram", c.hop_length.histogram, "1");
+  visit("search/hops/hop_duration/sum", c.hop_duration.sum, "s");
+  visit("search/hops/hop_duration/squares", c.hop_duration.squares, "s2");
+  visit("search/hops/hop_duration/histogram", c.hop_duration.histogram, "1");
+  visit("search/hops/rest_time/sum", c.rest_time.sum, "s");
+  visit("search/hops/rest_time/squares", c.rest_time.squares, "s2");
+  visit("search/hops/rest_time/histogram", c.rest_time.histogram, "1");
+
+  auto& f = s.search.profiles;
+  visit("search/profiles/instants", f.instants, "1");
+  visit("search/profiles/solid", f.solid, "m3");
+  visit("search/profiles/motion", f.motion, "m4/s");
+  visit("search/profiles/squares", f.squares, "m5/s2");
+  visit("search/profiles/fluid_velocity", f.fluid_velocity, "m/s");
 
   visit("record/settled/solid_fraction", s.record.settled.solid_fraction, "1");
   visit("record/settled/coordination", s.record.settled.coordination, "1");
@@ -178,6 +212,8 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("record/holds/shields_measured", h.shields_measured, "1");
   visit("record/holds/lid_speed", h.lid_speed, "m/s");
   visit("record/holds/gradient", h.gradient, "m/s2");
+  visit("record/holds/shields_lid", h.shields_lid, "1");
+  visit("record/holds/stress_residual", h.stress_residual, "1");
   visit("record/holds/flux", h.flux, "1");
   visit("record/holds/flux_standard_error", h.flux_standard_error, "1");
   visit("record/holds/moving_fraction", h.moving_fraction, "1");
@@ -195,6 +231,27 @@ void State::each_field(Self& s, Visit&& visit) {
   BedRecord::Health::Measures::each(s.record.health.measures, [&](const char* name, auto& column, const char* unit) {
     visit((std::string("record/health/") + name).c_str(), column, unit);
   });
+
+  auto& m = s.record.hops;
+  visit("record/hops/hold", m.hold, "1");
+  visit("record/hops/duration", m.duration, "s");
+  visit("record/hops/entrained", m.entrained, "1");
+  visit("record/hops/deposited", m.deposited, "1");
+  visit("record/hops/hops", m.hops, "1");
+  visit("record/hops/hop_length", m.hop_length, "m");
+  visit("record/hops/hop_length_deviation", m.hop_length_deviation, "m");
+  visit("record/hops/hop_duration", m.hop_duration, "s");
+  visit("record/hops/hop_duration_deviation", m.hop_duration_deviation, "s");
+  visit("record/hops/rests", m.rests, "1");
+  visit("record/hops/rest_time", m.rest_time, "s");
+  visit("record/hops/rest_time_deviation", m.rest_time_deviation, "s");
+
+  auto& e = s.record.hop_histograms;
+  visit("record/hop_histograms/hold", e.hold, "1");
+  visit("record/hop_histograms/lower", e.lower, "1");
+  visit("record/hop_histograms/by_length", e.by_length, "1");
+  visit("record/hop_histograms/by_duration", e.by_duration, "1");
+  visit("record/hop_histograms/rests", e.rests, "1");
 
   auto& b = s.record.profiles;
   visit("record/profiles/hold", b.hold, "1");
@@ -218,12 +275,16 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("record/tracks/wz", t.wz, "rad/s");
 
   // A new member of State changes one of these sizes: list it above, then here.
-  static_assert(sizeof(Clock) == 5 * 8 && sizeof(Window) == 7 * 8 && sizeof(HoldHealth) == 20 * 8 &&
-                sizeof(Search) == 17 * 8 + 2 * sizeof(Window) + sizeof(HoldHealth));
+  static_assert(sizeof(Clock) == 5 * 8 && sizeof(Window) == 8 * 8 && sizeof(HoldHealth) == 20 * 8 &&
+                sizeof(Search) ==
+                    17 * 8 + 2 * sizeof(Window) + sizeof(HoldHealth) + sizeof(HopSums) + sizeof(ProfileSums));
+  static_assert(sizeof(ProfileSums) == 8 + 4 * sizeof(std::vector<double>) &&
+                sizeof(HopSums) == 2 * 8 + 3 * (2 * 8 + sizeof(std::vector<double>)) &&
+                sizeof(GrainHops) == 5 * sizeof(std::vector<double>));
   static_assert(sizeof(FluidState) == 4 * sizeof(Field<Centre>) + 8);
   static_assert(sizeof(Grains) == 10 * sizeof(std::vector<Vec3>) &&
                 sizeof(ContactHistory) == 5 * sizeof(std::vector<Vec3>));
-  static_assert(sizeof(BedRecord) == 3 * 8 + (13 + 22 + 21 + 6 + 11) * sizeof(std::vector<double>));
+  static_assert(sizeof(BedRecord) == 3 * 8 + (13 + 24 + 21 + 12 + 5 + 6 + 11) * sizeof(std::vector<double>));
 }
 
 /// SHA-256 over each_field: name, unit, shape, little-endian bytes of the interior. Hexadecimal.

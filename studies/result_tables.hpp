@@ -44,6 +44,9 @@ CREATE TABLE IF NOT EXISTS ramp_points (           -- one row per hold, means ov
   end_s                     REAL NOT NULL,
   shields_nominal           REAL NOT NULL,         -- imposed
   shields                   REAL NOT NULL,         -- measured by the momentum balance of the bed
+  shields_lid               REAL,                  -- by the lid's stress and the drive above z_b
+  stress_residual           REAL,                  -- |shields_lid/shields - 1|: what the flow above z_b still gains or loses
+  steady                    INTEGER,               -- 1 = that is below 1 %
   shear_velocity_m_per_s    REAL,                  -- u*
   friction_reynolds         REAL,                  -- Re* = u* d/nu
   lid_speed_m_per_s         REAL NOT NULL,
@@ -56,6 +59,7 @@ CREATE TABLE IF NOT EXISTS ramp_points (           -- one row per hold, means ov
   moved_grains              INTEGER NOT NULL,      -- that went d/2 downstream since the hold began
   bed_height_m              REAL NOT NULL,         -- z_b: half of the bulk's solid fraction
   bed_top_m                 REAL NOT NULL,         -- mean elevation of the highest grain surfaces
+  rebound_level_m           REAL,                  -- where P_s dv_x/dz is largest; NULL where nothing is transported
   slope                     REAL NOT NULL,         -- dz/dx of that elevation, least squares
   roughness_m               REAL NOT NULL,
   porosity                  REAL NOT NULL,
@@ -132,6 +136,38 @@ CREATE TABLE IF NOT EXISTS motion_decay (          -- last + (first - last) exp(
   last                      REAL NOT NULL,         -- and in the end
   samples                   INTEGER NOT NULL,
   PRIMARY KEY (case_id, hold)
+) STRICT;
+
+CREATE TABLE IF NOT EXISTS grain_motion (          -- per hold, over its last half: hops and rests that ended in it
+  case_id                   TEXT NOT NULL,
+  hold                      INTEGER NOT NULL,
+  duration_s                REAL NOT NULL,         -- of that last half
+  entrained                 INTEGER NOT NULL,      -- times that a grain left rest
+  deposited                 INTEGER NOT NULL,      -- times that one came to rest
+  entrainment_per_m2_s      REAL NOT NULL,         -- rates per area of the bed and time
+  deposition_per_m2_s       REAL NOT NULL,
+  hops                      INTEGER NOT NULL,      -- from rest to rest, begun since the hold did
+  hop_length_m              REAL,                  -- downstream: mean, standard deviation, median
+  hop_length_deviation_m    REAL,
+  hop_length_median_m       REAL,
+  hop_duration_s            REAL,
+  hop_duration_deviation_s  REAL,
+  hop_duration_median_s     REAL,
+  rests                     INTEGER NOT NULL,      -- that another hop ended, begun since the hold did
+  rest_time_s               REAL,
+  rest_time_deviation_s     REAL,
+  rest_time_median_s        REAL,
+  PRIMARY KEY (case_id, hold)
+) STRICT;
+
+CREATE TABLE IF NOT EXISTS hop_histograms (        -- how the hops and rests of grain_motion are spread
+  case_id                   TEXT NOT NULL,
+  hold                      INTEGER NOT NULL,
+  lower                     REAL NOT NULL,         -- of a bin that ends at twice that; in d (lengths), t_d (times)
+  hops_by_length            INTEGER NOT NULL,      -- the first bin has all below it too, the last all above
+  hops_by_duration          INTEGER NOT NULL,
+  rests_by_time             INTEGER NOT NULL,
+  PRIMARY KEY (case_id, hold, lower)
 ) STRICT;
 
 CREATE TABLE IF NOT EXISTS bed_statistics (        -- profiles; hold -1 = the settled bed

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
+#include "solver/bed/bed_profiles.hpp"
+#include "solver/bed/grain_hops.hpp"
 #include "solver/bed/incipient_motion.hpp"
 #include "solver/bed/onset_search.hpp"
 #include "solver/coupling/drag_laws.hpp"
@@ -21,6 +24,8 @@ namespace bedload {
 
 namespace {
 
+constexpr double largest_steady_residual = 0.01;   // of the stress on the bed, against that from above
+
 Value whole(double number) { return static_cast<std::int64_t>(std::llround(number)); }
 Value whole(std::uint64_t number) { return static_cast<std::int64_t>(number); }
 Value flag(bool is) { return std::int64_t{is}; }
@@ -31,6 +36,11 @@ void insert(Database& database, std::string_view table, const std::vector<Value>
   std::string places;
   for (std::size_t n = 0; n < values.size(); ++n) places += n ? ", ?" : "?";
   database.execute(fmt::format("INSERT INTO {} VALUES ({})", table, places), values);
+}
+
+/// The event flux from which on a hold counts as moving: the study's own, or that of 1e-2 where another criterion decides.
+double least_moving_flux(const Scene& scene) {
+  return scene.onset.criterion == Onset::Criterion::flux ? scene.onset.value : 1e-2;
 }
 
 struct Scales {
@@ -85,7 +95,17 @@ void store_scene(Database& database, const CaseIdentity& id, const Scene& scene,
           whole(state.clock.retries)});
 }
 
-void store_ramp(Database& database, const CaseIdentity& id, const Scene& scene, const BedRecord::Holds& h) {
+/// From the profiles of a hold [m]; nan where there are none, or nothing is sheared.
+double rebound_level_of(const BedRecord::Profiles& p, double hold) {
+  const auto [first, last] = std::ranges::equal_range(p.hold, hold);   // holds are in order
+  const auto rows = [&, from = std::size_t(first - p.hold.begin()), n = std::size_t(last - first)](
+                        const std::vector<double>& column) { return std::span(column).subspan(from, n); };
+  return rebound_level(rows(p.z), rows(p.porosity), rows(p.grain_velocity));
+}
+
+void store_ramp(Database& database, const CaseIdentity& id, const Scene& scene, const BedRecord& record) {
+  const BedRecord::Holds& h = record.holds;
+  const double moves = least_moving_flux(scene);
   const Scales scales(scene);
   const double per_area = surface_grains(scene) / (scene.bed.length.x * scene.bed.length.y);
   const double speed = std::sqrt(reduced_gravity(scales.s, scales.g) * scales.d);   // u* = sqrt(theta (s-1) g d)
@@ -98,6 +118,9 @@ void store_ramp(Database& database, const CaseIdentity& id, const Scene& scene, 
             h.end[k],
             h.shields_nominal[k],
             h.shields_measured[k],
+            h.stress_residual[k] < 0 ? Value() : Value(h.shields_lid[k]),
+            known(h.stress_residual[k]),
+            h.stress_residual[k] < 0 ? Value() : flag(h.stress_residual[k] < largest_steady_residual),
             real_or_null(root * speed),
             real_or_null(root * scales.galileo),
             h.lid_speed[k],
@@ -110,6 +133,7 @@ void store_ramp(Database& database, const CaseIdentity& id, const Scene& scene, 
             whole(h.moved_grains[k]),
             h.bed_height[k],
             h.bed_top[k],
+            real_or_null(h.flux[k] >= moves ? rebound_level_of(record.profiles, h.hold[k]) : std::nan("")),
             h.slope[k],
             h.roughness[k],
             h.porosity[k],
@@ -190,7 +214,7 @@ void store_measures_of_motion(Database& database, const CaseIdentity& id, const 
 void store_flux_law(Database& database, const CaseIdentity& id, const Scene& scene, const BedRecord::Holds& h) {
   const Scales scales(scene);
   const double per_area = surface_grains(scene) / (scene.bed.length.x * scene.bed.length.y);
-  const double moves = scene.onset.criterion == Onset::Criterion::flux ? scene.onset.value : 1e-2;
+  const double moves = least_moving_flux(scene);
   std::vector<double> shields, transport;
   for (std::size_t k = 0; k < h.hold.size(); ++k) {
     if (static_cast<HoldPurpose>(h.purpose[k]) == HoldPurpose::staircase || h.flux[k] < moves) continue;
@@ -241,6 +265,36 @@ void store_thresholds(Database& database, const CaseIdentity& id, const Scene& s
   }
 }
 
+/// Entrainment and deposition, hops and rests; measures of what did not happen are NULL.
+void store_grain_motion(Database& database, const CaseIdentity& id, const Scene& scene, const BedRecord& record) {
+  const BedRecord::Hops& h = record.hops;
+  const BedRecord::HopHistograms& bins = record.hop_histograms;
+  const Scales scales(scene);
+  if (!(scales.grain_time > 0)) return;   // no rest without a weight
+  const double area = scene.bed.length.x * scene.bed.length.y;
+  for (std::size_t k = 0; k < h.hold.size(); ++k) {
+    const auto median = [&](const std::vector<double>& counts, double unit) {
+      return real_or_null(unit * Spread::median(std::span(counts).subspan(k * Spread::bins, Spread::bins)));
+    };
+    const auto of = [](double count, double least, double measure) {
+      return count >= least ? Value(measure) : Value();
+    };
+    const double per_area_and_time = 1 / (area * h.duration[k]);
+    insert(database, "grain_motion",
+           {id.id, whole(h.hold[k]), h.duration[k], whole(h.entrained[k]), whole(h.deposited[k]),
+            h.entrained[k] * per_area_and_time, h.deposited[k] * per_area_and_time, whole(h.hops[k]),
+            of(h.hops[k], 1, h.hop_length[k]), of(h.hops[k], 2, h.hop_length_deviation[k]),
+            median(bins.by_length, scales.d), of(h.hops[k], 1, h.hop_duration[k]),
+            of(h.hops[k], 2, h.hop_duration_deviation[k]), median(bins.by_duration, scales.grain_time),
+            whole(h.rests[k]), of(h.rests[k], 1, h.rest_time[k]), of(h.rests[k], 2, h.rest_time_deviation[k]),
+            median(bins.rests, scales.grain_time)});
+  }
+  for (std::size_t n = 0; n < bins.hold.size(); ++n)
+    insert(database, "hop_histograms",
+           {id.id, whole(bins.hold[n]), bins.lower[n], whole(bins.by_length[n]), whole(bins.by_duration[n]),
+            whole(bins.rests[n])});
+}
+
 void store_profiles(Database& database, const CaseIdentity& id, const BedRecord::Profiles& p) {
   for (std::size_t n = 0; n < p.z.size(); ++n)
     insert(database, "bed_statistics",
@@ -274,11 +328,11 @@ void create_result_tables(Database& database) {
 void store_results(Database& database, const CaseIdentity& id, const Scene& scene, const State& state,
                    const Provenance& made_by) {
   Database::Transaction transaction(database);
-  for (const char* table : {"scenes", "ramp_points", "thresholds", "flux_laws", "motion_decay", "bed_statistics",
-                            "samples", "tracks", "provenance"})
+  for (const char* table : {"scenes", "ramp_points", "thresholds", "flux_laws", "motion_decay", "grain_motion",
+                            "hop_histograms", "bed_statistics", "samples", "tracks", "provenance"})
     database.execute(fmt::format("DELETE FROM {} WHERE case_id = ?", table), {id.id});
   store_scene(database, id, scene, state);
-  store_ramp(database, id, scene, state.record.holds);
+  store_ramp(database, id, scene, state.record);
   store_health(database, id.id, state);
   store_thresholds(database, id, scene, state.record);
   if (scene.onset.method != Onset::Method::none) {
@@ -286,6 +340,7 @@ void store_results(Database& database, const CaseIdentity& id, const Scene& scen
     store_flux_law(database, id, scene, state.record.holds);
     store_decays(database, id, scene, state.record);
   }
+  store_grain_motion(database, id, scene, state.record);
   store_profiles(database, id, state.record.profiles);
   store_samples(database, id, state.record.samples);
   store_tracks(database, id, state.record.tracks);
@@ -294,6 +349,20 @@ void store_results(Database& database, const CaseIdentity& id, const Scene& scen
           made_by.host, whole(id.seed), state_digest(state)});
   update_threshold_curve(database);
   transaction.commit();
+}
+
+std::string unsteady_holds(const Database& database) {
+  if (!has_table(database, "ramp_points")) return "";
+  const auto row = database
+                       .query(
+                           "SELECT count(*) FILTER (WHERE NOT steady), count(*), max(stress_residual) FROM "
+                           "ramp_points WHERE steady IS NOT NULL AND purpose IN ('ramp', 'onset', 'stop') AND " +
+                           in_study(database))
+                       .rows.at(0);
+  if (!(number_in(row[0]) > 0)) return "";
+  return fmt::format(
+      "{} of {} holds are not steady: the stress on the bed differs from that of lid and drive by up to {:.2g} %",
+      number_in(row[0]), number_in(row[1]), 100 * number_in(row[2]));
 }
 
 void store_health(Database& database, const std::string& case_id, const State& state) {

@@ -35,6 +35,10 @@ void create_result_tables(Database&);
 /// one is open).
 void store_results(Database&, const CaseIdentity&, const Scene&, const State&, const Provenance&);
 
+/// How many holds of the study's ramps and searches are not steady, of those whose stress is known, in a line; empty if none.
+/// Staircases and stirs of a search are not asked to be.
+std::string unsteady_holds(const Database&);
+
 /// Replaces the case's rows of `step_health`: of its finished holds, and of the one under way in a state that is not the last.
 void store_health(Database&, const std::string& case_id, const State&);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/bed/bed_surface.hpp"
 
@@ -32,12 +33,6 @@ double velocity_at(double z, const std::vector<double>& plane, const StaggeredGr
   return plane[k] + (plane[k + 1] - plane[k]) * (at - double(k));
 }
 
-struct LayerOfGrains {
-  double solid = 0;     // volume [m3]
-  Vec3 momentum;        // volume x velocity
-  double squares = 0;   // volume x squared fluctuation; filled once the mean is known
-};
-
 /// use(layer, slice [m3]) for every layer that grain p reaches into.
 template <class Use>
 void each_slice(const Grains& grains, std::size_t p, double bin, std::size_t bins, Use&& use) {
@@ -47,40 +42,59 @@ void each_slice(const Grains& grains, std::size_t p, double bin, std::size_t bin
     use(k, slice_volume(radius, double(k) * bin - z, double(k + 1) * bin - z));
 }
 
-std::vector<LayerOfGrains> layers_of(const Grains& grains, double height, std::size_t bins) {
-  std::vector<LayerOfGrains> layers(bins);
-  const double bin = height / double(bins);
-  for (std::size_t p = 0; p < grains.size(); ++p)
-    each_slice(grains, p, bin, bins, [&](std::size_t k, double slice) {
-      layers[k].solid += slice;
-      layers[k].momentum += slice * grains.velocity[p];
-    });
-  for (std::size_t p = 0; p < grains.size(); ++p)
-    each_slice(grains, p, bin, bins, [&](std::size_t k, double slice) {
-      if (slice > 0)
-        layers[k].squares += slice * norm2(grains.velocity[p] - (1 / layers[k].solid) * layers[k].momentum);
-    });
-  return layers;
-}
-
 }   // namespace
 
-void record_profiles(const Grains& grains, const FluidState& fluid, const StaggeredGrid& grid, double diameter,
-                     double lid_speed, double hold, BedRecord::Profiles& out) {
-  const Vec3 length = grid.length();
-  const auto bins = std::size_t(std::max(1L, std::lround(4 * length.z / diameter)));
-  const double bin = length.z / double(bins);
-  const std::vector<double> plane = plane_means(fluid.velocity.x, grid);
-  const std::vector<LayerOfGrains> layers = layers_of(grains, length.z, bins);
-  for (std::size_t k = 0; k < bins; ++k) {
-    const double z = (double(k) + 0.5) * bin;
-    out.hold.push_back(hold);
-    out.z.push_back(z);
-    out.porosity.push_back(1 - layers[k].solid / (length.x * length.y * bin));
-    out.fluid_velocity.push_back(velocity_at(z, plane, grid, lid_speed));
-    out.grain_velocity.push_back(layers[k].solid > 0 ? layers[k].momentum.x / layers[k].solid : 0);
-    out.granular_temperature.push_back(layers[k].solid > 0 ? layers[k].squares / (3 * layers[k].solid) : 0);
+void add_instant(const Grains& grains, const FluidState& fluid, const StaggeredGrid& grid, double diameter,
+                 double lid_speed, ProfileSums& sums) {
+  const double height = grid.length().z;
+  const auto bins = std::size_t(std::max(1L, std::lround(4 * height / diameter)));
+  const double bin = height / double(bins);
+  sums.solid.resize(bins), sums.motion.resize(bins), sums.squares.resize(bins), sums.fluid_velocity.resize(bins);
+  sums.instants += 1;
+  for (std::size_t p = 0; p < grains.size(); ++p) {
+    const Vec3 v = grains.velocity[p];
+    each_slice(grains, p, bin, bins, [&](std::size_t k, double slice) {
+      sums.solid[k] += slice, sums.motion[k] += slice * v, sums.squares[k] += slice * norm2(v);
+    });
   }
+  const std::vector<double> plane = plane_means(fluid.velocity.x, grid);
+  for (std::size_t k = 0; k < bins; ++k)
+    sums.fluid_velocity[k] += velocity_at((double(k) + 0.5) * bin, plane, grid, lid_speed);
+}
+
+void record_profiles(const ProfileSums& sums, Vec3 length, double hold, BedRecord::Profiles& out) {
+  const std::size_t bins = sums.solid.size();
+  const double bin = length.z / double(bins);
+  for (std::size_t k = 0; k < bins; ++k) {
+    const double solid = sums.solid[k];
+    const Vec3 mean = solid > 0 ? (1 / solid) * sums.motion[k] : Vec3{};
+    const double fluctuation = solid > 0 ? sums.squares[k] / solid - norm2(mean) : 0;
+    out.hold.push_back(hold);
+    out.z.push_back((double(k) + 0.5) * bin);
+    out.porosity.push_back(1 - solid / (sums.instants * length.x * length.y * bin));
+    out.fluid_velocity.push_back(sums.fluid_velocity[k] / sums.instants);
+    out.grain_velocity.push_back(mean.x);
+    out.granular_temperature.push_back(std::max(0.0, fluctuation / 3));   // rounding may leave less than nothing
+  }
+}
+
+double rebound_level(std::span<const double> z, std::span<const double> porosity,
+                     std::span<const double> grain_velocity) {
+  constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+  if (z.size() < 2) return nowhere;
+  const std::size_t faces = z.size() - 1;
+  std::vector<double> work(faces);   // P_s dv_x/dz between layers, but for constant factors
+  double above = 0;
+  for (std::size_t k = faces; k-- > 0;) {
+    above += 1 - porosity[k + 1];
+    const bool grains = porosity[k] < 1 && porosity[k + 1] < 1;
+    work[k] = grains ? above * (grain_velocity[k + 1] - grain_velocity[k]) : 0;
+  }
+  const auto k = std::size_t(std::max_element(work.begin(), work.end()) - work.begin());
+  if (!(work[k] > 0)) return nowhere;
+  const double bin = z[1] - z[0], face = z[k] + bin / 2;
+  if (k == 0 || k + 1 == faces) return face;
+  return face + bin / 2 * (work[k + 1] - work[k - 1]) / (2 * work[k] - work[k - 1] - work[k + 1]);   // of a parabola
 }
 
 }   // namespace bedload

@@ -21,9 +21,9 @@ struct BedRecord {
     bool operator==(const Samples&) const = default;
   } samples;
   struct Holds {   // one row per finished hold; purpose and verdict are numbers of HoldPurpose and HoldVerdict
-    std::vector<double> hold, purpose, level, verdict, start, end, shields_nominal, shields_measured, lid_speed,
-        gradient, flux, flux_standard_error, moving_fraction, moved_grains, bed_height, bed_top, slope, roughness,
-        porosity, coordination, bearing_coordination, momentum_residual;
+    std::vector<double> hold, purpose, level, verdict, start, end, shields_nominal, shields_measured, shields_lid,
+        stress_residual, lid_speed, gradient, flux, flux_standard_error, moving_fraction, moved_grains, bed_height,
+        bed_top, slope, roughness, porosity, coordination, bearing_coordination, momentum_residual;
     bool operator==(const Holds&) const = default;
   } holds;
   struct Health {   // one row per finished hold
@@ -32,7 +32,16 @@ struct BedRecord {
     Measures measures;
     bool operator==(const Health&) const = default;
   } health;
-  struct Profiles {   // at the end of packing (hold -1) and of every hold, mean over x and y
+  struct Hops {   // one row per finished hold, over its last half; mean and standard deviation of what ended in it
+    std::vector<double> hold, duration, entrained, deposited, hops, hop_length, hop_length_deviation, hop_duration,
+        hop_duration_deviation, rests, rest_time, rest_time_deviation;
+    bool operator==(const Hops&) const = default;
+  } hops;
+  struct HopHistograms {   // Spread::bins rows per finished hold; lower edge in d or t_d, numbers of hops and rests
+    std::vector<double> hold, lower, by_length, by_duration, rests;
+    bool operator==(const HopHistograms&) const = default;
+  } hop_histograms;
+  struct Profiles {   // of the settled bed (hold -1), and over the last half of every hold; mean over x and y
     std::vector<double> hold, z, porosity, fluid_velocity, grain_velocity, granular_temperature;
     bool operator==(const Profiles&) const = default;
   } profiles;

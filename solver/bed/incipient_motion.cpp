@@ -140,10 +140,8 @@ bool ramp_is_over(const BedRecord& record, const Onset& onset, std::size_t ramp_
 std::uint64_t count_events(Grains& grains, std::span<const double> x_before, double period, double diameter) noexcept {
   std::uint64_t events = 0;
   for (std::size_t p = 0; p < grains.size(); ++p) {
-    double way = grains.position[p].x - x_before[p];
-    if (period > 0) way -= period * std::round(way / period);
     double& travel = grains.travel[p];
-    travel += way;
+    travel += way_along_x(x_before[p], grains.position[p].x, period);
     for (; travel >= diameter / 2; travel -= diameter / 2) ++events, grains.moved[p] = 1;
   }
   return events;

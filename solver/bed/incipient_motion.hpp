@@ -1,6 +1,7 @@
 // Onset of motion: which grains move, and at which hold of a ramp the bed has begun to.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <string_view>
 
@@ -42,6 +43,12 @@ IncipientMotion lowest_reached(std::span<const double> shields, std::span<const 
 
 /// True when the ramp may end: onset confirmed and two more holds recorded, or every hold done.
 bool ramp_is_over(const BedRecord&, const Onset&, std::size_t ramp_levels);
+
+/// From one place to another along x [m], by the shorter way round in a box of `period` > 0.
+inline double way_along_x(double from, double to, double period) noexcept {
+  const double way = to - from;
+  return period > 0 ? way - period * std::round(way / period) : way;
+}
 
 /// Adds the way that every grain has gone along x since `x_before` [m] to its travel (by the shorter way round in a box of
 /// `period` > 0), and takes off each d/2 that is complete; a grain with one has moved. Returns how many there were: the events of the flux criterion.

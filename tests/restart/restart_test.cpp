@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <ranges>
 #include <set>
 
 #include "checkpoint/checkpoint.hpp"
@@ -94,6 +95,32 @@ TEST_P(Restart, AShortRampContinuedWithTheRestOfItsLevelsEqualsTheLongRamp) {
 
 INSTANTIATE_TEST_SUITE_P(TinyScenes, Restart, testing::ValuesIn(tiny_scenes()),
                          [](const auto& tiny) { return tiny.param.name; });
+
+/// Before every step of a hold's last half some grain is between two rests, and what it has done so far must not be lost.
+TEST(RestartInAHop, CountsTheHopsThatAnUninterruptedRunCounts) {
+  const Scene scene = hopping().scene;
+  const auto run = [&](bool killed) {
+    auto experiment = std::make_unique<Experiment>(scene);
+    State state = experiment->begin();
+    std::size_t kills = 0;
+    while (!Experiment::finished(state)) {
+      const auto& since = state.hops.left_rest;
+      const bool in_a_hop = std::ranges::any_of(std::views::iota(std::size_t(0), since.size()), [&](std::size_t p) {
+        return !state.hops.resting[p] && since[p] >= state.search.hold_start && state.hops.way_when_fast[p] != 0;
+      });
+      if (killed && in_a_hop && state.clock.step % 9 == 0) ++kills, reload(scene, state, experiment);
+      experiment->step(state);
+    }
+    EXPECT_EQ(kills > 3, killed);
+    return state;
+  };
+  const State straight = run(false), killed = run(true);
+  EXPECT_EQ(straight.record.hops, killed.record.hops);
+  EXPECT_EQ(straight.record.hop_histograms, killed.record.hop_histograms);
+  EXPECT_EQ(state_digest(straight), state_digest(killed));
+  EXPECT_GT(straight.record.hops.hops.back(), 3);
+  EXPECT_GT(straight.record.hops.rests.back(), 0);
+}
 
 template <class Field>
 bool in_use(const Field& field) {

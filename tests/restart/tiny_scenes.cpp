@@ -132,6 +132,14 @@ TinyScene layers(FluidRung rung) {
   return {std::string(name_of(rung)), scene};
 }
 
+TinyScene hopping() {
+  Scene scene = poured_bed(110, {8, 6, 8}, {1, 1, 20});
+  scene.fluid = FluidRung::column;
+  scene.bed.gravity = 10 * scene.bed.gravity;   // so that a hold is many grain times long
+  add_ramp(scene, FlowRamp::Kind::lid, {0.08, 0.15}, 100);
+  return {"hopping", scene};
+}
+
 TinyScene search() {
   Scene scene = poured_bed(0, {8, 6, 6}, {4, 3, 12});
   scene.bed.source = {.kind = BedSource::Kind::file, .count = 20, .csv = "x,y,z,diameter,density,fixed\n"};

@@ -45,6 +45,9 @@ TinyScene sheared();
 /// The lid's bed, of which what lies deep is frozen until it is scoured.
 TinyScene frozen_below();
 
+/// Grains under ten times their weight, so that a hold is long enough for them to hop and rest many times.
+TinyScene hopping();
+
 inline std::vector<TinyScene> tiny_scenes() {
   return {lid_driven(),
           stream_on_a_slope(),
@@ -56,7 +59,8 @@ inline std::vector<TinyScene> tiny_scenes() {
           layers(FluidRung::column),
           search(),
           sheared(),
-          frozen_below()};
+          frozen_below(),
+          hopping()};
 }
 
 }   // namespace bedload::test

@@ -63,6 +63,21 @@ TEST(Experiment, OverABareBottomMeasuresTheShieldsNumberItImposes) {
   EXPECT_NEAR(holds.shields_measured[0], 0.1, 1e-9);   // plane Couette flow is exact on the grid
   EXPECT_NEAR(holds.shields_measured[1], 0.25, 1e-9);
   EXPECT_LT(holds.momentum_residual[1], 1e-10);
+  EXPECT_NEAR(holds.shields_lid[1], 0.25, 1e-9);
+  EXPECT_LT(holds.stress_residual[1], 1e-8);
+}
+
+TEST(Experiment, SeesThatTheStressOfLidAndDriveHasNotReachedTheBedYet) {
+  for (const auto kind : {FlowRamp::Kind::lid, FlowRamp::Kind::pressure}) {
+    Scene scene = bed_scene(0, kind, {0.1});
+    if (kind == FlowRamp::Kind::pressure) scene.bed.top = scene.grid.top = Top::free_slip;
+    scene.developed = false;   // from rest; the bottom learns of it in H^2/nu = 2.5 s
+    const auto holds = run(scene).record.holds;
+    EXPECT_GT(holds.stress_residual.at(0), 0.1);
+    EXPECT_GT(holds.shields_lid.at(0), 1.1 * holds.shields_measured.at(0));
+    EXPECT_LT(holds.momentum_residual.at(0), 1e-10);   // which closes all the same
+    if (kind == FlowRamp::Kind::pressure) EXPECT_NEAR(holds.shields_lid.at(0), 0.1, 1e-12);
+  }
 }
 
 TEST(Experiment, ReadsTheFlowsFromPressureOffTheBottomWithinTheirGridError) {
@@ -105,7 +120,9 @@ TEST(Experiment, RecordsSamplesHoldsAndProfilesOnceEach) {
 TEST(Experiment, HasNoMomentumResidualToShowWhereWallsOrFixedGrainsTakePart) {
   Scene scene = bed_scene(0, FlowRamp::Kind::lid, {0.1});
   scene.bed.sides[1] = scene.grid.sides[1] = Side::wall;
-  EXPECT_EQ(run(scene).record.holds.momentum_residual.at(0), -1);
+  const auto holds = run(scene).record.holds;
+  EXPECT_EQ(holds.momentum_residual.at(0), -1);
+  EXPECT_EQ(holds.stress_residual.at(0), -1);
 }
 
 TEST(Experiment, WithoutADriveIsOneHoldOfOneDwell) {

@@ -54,9 +54,9 @@ class ReportTest : public ::testing::Test {
     database_.execute(
         "INSERT INTO thresholds VALUES "
         "('c','flux',0.01,1,'bracketed',0.17,0.15,0.18,'ramp',NULL,NULL,0.58,4.5,NULL,NULL,NULL)");
-    for (const auto* row : {"0,0,1,0.1,0.1,0,0,0,0,0,0", "1,1,2,0.2,0.2,0,0,0,0,0.5,0.1"})
+    for (const auto* row : {"0,0,1,0.1,0.1,NULL,NULL,NULL,0,0,0,0,0,0", "1,1,2,0.2,0.2,0.2,0,1,0,0,0,0,0.5,0.1"})
       database_.execute(std::string("INSERT INTO ramp_points VALUES ('c',") + row +
-                        ",0,0,0.1,0,0.003,0.003,0,0.0005,0.4,5,5,0,'ramp','none')");
+                        ",0,0,0.1,0,0.003,0.003,NULL,0,0.0005,0.4,5,5,0,'ramp','none')");
     for (int z = 0; z < 4; ++z)
       database_.execute("INSERT INTO bed_statistics VALUES ('c',1,?,0.5,0.1,0.05,0)", {z * 1e-3});
     database_.execute("INSERT INTO models VALUES ('c',0,'drag',1,1,0.5,'a < b & c')");

@@ -55,6 +55,8 @@ State finished_state() {
     h.shields_measured.push_back(0.1 * (k + 1));
     h.flux.push_back(k < 2 ? 1e-4 : 0.1);
     h.momentum_residual.push_back(k == 0 ? -1 : 1e-9);
+    h.shields_lid.push_back(k == 0 ? 0 : 0.1 * (k + 1) * (1 + 0.008 * k));   // further off from hold to hold
+    h.stress_residual.push_back(k == 0 ? -1 : 0.008 * k);
   }
   state.record.settled = {.solid_fraction = 0.58, .coordination = 4.5, .shear_flux = 2e-3};
   auto& s = state.record.samples;
@@ -71,7 +73,22 @@ State finished_state() {
   double measure = 100;
   BedRecord::Health::Measures::each(state.record.health.measures,
                                     [&](auto&&, auto& column, auto&&) { column = {measure++}; });
-  state.record.profiles = {{-1, -1}, {1e-4, 2e-4}, {0.4, 0.5}, {0, 0}, {0, 0}, {0, 0}};
+  state.record.hops = {{3}, {0.5}, {12}, {10}, {8}, {1e-3}, {2e-4}, {0.1}, {0.02}, {1}, {0.3}, {0}};
+  auto& bins = state.record.hop_histograms;
+  for (std::size_t bin = 0; bin < Spread::bins; ++bin) {   // lengths in [2, 4) d, durations beyond the last bin
+    bins.hold.push_back(3);
+    bins.lower.push_back(Spread::lower_edge(bin));
+    bins.by_length.push_back(bin == 7 ? 8 : 0), bins.by_duration.push_back(bin == 15 ? 8 : 0);
+    bins.rests.push_back(bin == 8);
+  }
+  auto& p = state.record.profiles;
+  p = {{-1, -1}, {1e-4, 2e-4}, {0.4, 0.5}, {0, 0}, {0, 0}, {0, 0}};
+  for (const double hold : {1, 2, 3})   // above the upper face two thirds of the weight and a third of the shear
+    for (const double z : {1e-4, 2e-4, 3e-4}) {
+      p.hold.push_back(hold), p.z.push_back(z), p.porosity.push_back(z > 2.5e-4 ? 0.6 : 0.8);
+      p.grain_velocity.push_back(z > 2.5e-4 ? 4 : z > 1.5e-4 ? 3 : 0);
+      p.fluid_velocity.push_back(0), p.granular_temperature.push_back(0);
+    }
   state.record.tracks = {{0.1}, {7}, {1}, {2}, {3}, {4}, {5}, {6}, {7}, {8}, {9}};
   return state;
 }
@@ -95,7 +112,7 @@ TEST_F(ResultsTest, AreTheSameRowsHoweverOftenTheyAreStored) {
   store();
   EXPECT_EQ(database_.query("SELECT * FROM ramp_points").rows, before);
   EXPECT_EQ(number("SELECT count(*) FROM scenes"), 1);
-  EXPECT_EQ(number("SELECT count(*) FROM bed_statistics"), 2);
+  EXPECT_EQ(number("SELECT count(*) FROM bed_statistics"), 2 + 9);
   EXPECT_EQ(number("SELECT count(*) FROM tracks WHERE grain = 7 AND vz_m_per_s = 6"), 1);
 }
 
@@ -170,6 +187,46 @@ TEST_F(ResultsTest, HoldTheDecayOfTheMovingGrains) {
 TEST_F(ResultsTest, LeaveAMomentumResidualThatIsNotKnownEmpty) {
   store();
   EXPECT_EQ(number("SELECT count(*) FROM ramp_points WHERE momentum_residual IS NULL"), 1);
+}
+
+TEST_F(ResultsTest, FlagHoldsInWhichTheStressOnTheBedIsNotThatFromAbove) {
+  store();
+  EXPECT_EQ(
+      number("SELECT count(*) FROM ramp_points WHERE hold = 0 AND shields_lid IS NULL AND stress_residual IS NULL "
+             "AND steady IS NULL"),
+      1);   // where one of them is not known
+  EXPECT_EQ(number("SELECT steady FROM ramp_points WHERE hold = 1"), 1);
+  EXPECT_EQ(number("SELECT count(*) FROM ramp_points WHERE NOT steady"), 2);
+  EXPECT_NEAR(number("SELECT shields_lid / shields FROM ramp_points WHERE hold = 3"), 1.024, 1e-12);
+  EXPECT_EQ(unsteady_holds(database_),
+            "2 of 3 holds are not steady: the stress on the bed differs from that of lid and drive by up to 2.4 %");
+}
+
+TEST_F(ResultsTest, HaveNothingToSayOfHoldsThatAreSteadyOrWhoseStressIsNotKnown) {
+  EXPECT_EQ(unsteady_holds(database_), "");   // no case yet
+  State state = finished_state();
+  for (double& residual : state.record.holds.stress_residual) residual = std::min(residual, 0.009);
+  store_results(database_, {"id", "d0.5mm-s1", "set1", "d0.5mm", 1}, small_scene(), state, {});
+  EXPECT_EQ(unsteady_holds(database_), "");
+}
+
+TEST_F(ResultsTest, HoldTheLevelOfReboundsOfHoldsThatMove) {
+  store();
+  EXPECT_EQ(number("SELECT count(*) FROM ramp_points WHERE rebound_level_m IS NULL"), 2);   // holds 0 and 1 are still
+  EXPECT_NEAR(number("SELECT rebound_level_m FROM ramp_points WHERE hold = 3"), 1.5e-4, 1e-12);   // not 2.5e-4
+}
+
+TEST_F(ResultsTest, HoldHopsRestsAndTheRatesOfEntrainmentAndDeposition) {
+  store();
+  const double area = 10e-3 * 6e-3, d = 0.5e-3;
+  EXPECT_EQ(number("SELECT count(*) FROM grain_motion WHERE hold = 3"), 1);
+  EXPECT_NEAR(number("SELECT entrainment_per_m2_s FROM grain_motion"), 12 / (area * 0.5), 1e-9);
+  EXPECT_NEAR(number("SELECT deposition_per_m2_s FROM grain_motion"), 10 / (area * 0.5), 1e-9);
+  EXPECT_EQ(number("SELECT hop_length_m FROM grain_motion WHERE hops = 8"), 1e-3);
+  EXPECT_NEAR(number("SELECT hop_length_median_m FROM grain_motion"), d * 2 * std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(number("SELECT count(*) FROM grain_motion WHERE hop_duration_median_s IS NULL"), 1);   // in the last bin
+  EXPECT_EQ(number("SELECT count(*) FROM grain_motion WHERE rests = 1 AND rest_time_deviation_s IS NULL"), 1);
+  EXPECT_EQ(number("SELECT sum(hops_by_length) FROM hop_histograms WHERE lower = 2"), 8);
 }
 
 TEST_F(ResultsTest, SayHowWellTheStepsOfEveryHoldWent) {

@@ -80,7 +80,8 @@ class MeasuredTrade : public ::testing::Test {
         {one.id, std::sqrt(lower * upper), lower, upper});
     for (int hold = 0; hold < 2; ++hold)
       database.execute(
-          "INSERT INTO ramp_points VALUES (?,?,0,1,?,?,0,0,0,0,?,?,0,0,0.1,0,?,0.003,0,0.0005,0.4,5,5,0,'ramp','none')",
+          "INSERT INTO ramp_points VALUES "
+          "(?,?,0,1,?,?,NULL,NULL,NULL,0,0,0,0,?,?,0,0,0.1,0,?,0.003,NULL,0,0.0005,0.4,5,5,0,'ramp','none')",
           {one.id, std::int64_t{hold}, 0.1 + 0.1 * hold, 0.1 + 0.1 * hold, flux * hold, 0.1 * flux, height * 5e-4});
     database.execute("INSERT INTO attempts VALUES (?,1,'h',1,'t',NULL,'finished','',NULL,NULL,?,'v','c')",
                      {one.id, core_seconds});
