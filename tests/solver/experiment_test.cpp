@@ -76,7 +76,9 @@ TEST(Experiment, SeesThatTheStressOfLidAndDriveHasNotReachedTheBedYet) {
     EXPECT_GT(holds.stress_residual.at(0), 0.1);
     EXPECT_GT(holds.shields_lid.at(0), 1.1 * holds.shields_measured.at(0));
     EXPECT_LT(holds.momentum_residual.at(0), 1e-10);   // which closes all the same
-    if (kind == FlowRamp::Kind::pressure) EXPECT_NEAR(holds.shields_lid.at(0), 0.1, 1e-12);
+    if (kind == FlowRamp::Kind::pressure) {
+      EXPECT_NEAR(holds.shields_lid.at(0), 0.1, 1e-12);
+    }
   }
 }
 
