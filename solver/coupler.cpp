@@ -72,6 +72,10 @@ StepHealth Coupler::step(State& state, double longest) {
   return rung.health;
 }
 
+std::vector<double> Coupler::steady_column(const Grains& grains, const ImposedFlow& flow) {
+  return rung_->steady_column(grains, flow);
+}
+
 void Coupler::Parts::step(State& state, double longest) {
   place_on_grid(state.grains);
   accelerate_faces(state);

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "solver/scene.hpp"
 #include "solver/state.hpp"
@@ -63,6 +64,10 @@ class Coupler {
   /// Advances fluid, grains, contacts and clock by one fluid step, at most `longest` seconds, under the lid speed and
   /// gradient that state.search holds. Deterministic in State: scratch never outlives a step in meaning.
   StepHealth step(State&, double longest);
+
+  /// u of every layer of a column [m/s], once the flow that is imposed is steady over and through the grains where they are, held
+  /// still. Only for models.fluid = "column".
+  std::vector<double> steady_column(const Grains&, const ImposedFlow&);
 
   const StepBooks& books() const;
   /// Drag of the last step on each grain, by id [N].

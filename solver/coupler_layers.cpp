@@ -7,6 +7,8 @@
 namespace bedload {
 namespace {
 
+constexpr int most_halvings = 200;
+constexpr double steady_to = 1e-11;   // of the fastest layer
 constexpr double packed = 0.6;   // phi_max of the mixing length: random close packing, less what slices of it scatter
 
 bool all_finite(std::span<const double> u, const Grains& g) {
@@ -175,6 +177,36 @@ void Coupler::ColumnRung::advance_fluid(State& state, double dt) {
   books.driving.x = rho * scene.bed.length.z * area * gradient;
   books.by_lid = -books.on_lid.x * lid;
   books.by_gradient = rho * area * gradient * 0.5 * (flux_before + flux());
+}
+
+/// Steps of the fluid alone between grains that are fixed, each so long that nothing of the flow before is left in it. Half of each:
+/// with the drag and the eddies of the flow before, u -> C/u and u -> (u + C/u)/2 where the root of C is looked for (Heron).
+std::vector<double> Coupler::ColumnRung::steady_column(const Grains& grains, const ImposedFlow& imposed) {
+  State still;
+  still.fluid = FluidState(grid);
+  still.grains = grains;
+  still.grains.velocity.assign(grains.size(), {}), still.grains.spin.assign(grains.size(), {});
+  still.grains.fixed.assign(grains.size(), 1);
+  still.search.lid_speed = imposed.lid_speed, still.search.gradient = imposed.gradient;
+
+  const double height = scene.bed.length.z, dt = 1e6 * height * height / column.viscosity;
+  const std::span<double> u = profile(still);
+  std::vector<double> before(u.size());
+  place_in_layers(still.grains);
+  for (int n = 0; n < most_halvings; ++n) {
+    std::copy(u.begin(), u.end(), before.begin());
+    sample_at_grains(still);
+    predict_grains(still, dt);
+    if (scene.terms.viscous_torque) predict_spins(still, dt);
+    advance_fluid(still, dt);
+    double change = 0, fastest = 0;
+    for (std::size_t k = 0; k < u.size(); ++k) {
+      u[k] = 0.5 * (before[k] + u[k]);
+      change = std::max(change, std::abs(u[k] - before[k])), fastest = std::max(fastest, std::abs(u[k]));
+    }
+    if (change <= steady_to * fastest) break;
+  }
+  return {u.begin(), u.end()};
 }
 
 /// The liquid's part of what contacts have done that the solve did not know of, by layer as much as goes along there: so that

@@ -30,6 +30,8 @@ class Coupler::Layers : public Rung {
 
   /// u of all layers, as it stands in the state.
   std::span<double> profile(State&) const;
+  void place_in_layers(const Grains&);
+  void sample_at_grains(State&);
 
  private:
   /// d/dz of the viscous stress that grains feel at the start of the step, by layer [m/s2].
@@ -39,8 +41,6 @@ class Coupler::Layers : public Rung {
   /// What the grains' motion displaces and carries along.
   virtual void displace_fluid(State&, double dt) = 0;
 
-  void place_in_layers(const Grains&);
-  void sample_at_grains(State&);
   void sample_stress(std::span<const double> divergence, const State&);
   void sample_vorticity(State&);
   void feel_end_of_step(State&);
@@ -55,6 +55,7 @@ class Coupler::Layers : public Rung {
 class Coupler::ColumnRung final : public Layers {
  public:
   explicit ColumnRung(const Scene& given) : Layers(given) {}
+  std::vector<double> steady_column(const Grains&, const ImposedFlow&) override;
 
  private:
   std::span<const double> stress_divergence(const State&, std::span<const double> u) override;

@@ -35,6 +35,8 @@ class Coupler::Rung {
 
   /// One fluid step with all that belongs to it, but for the clock; leaves `books` and `health`, which it finds empty.
   virtual void step(State&, double longest) = 0;
+  /// Coupler::steady_column(); nothing on the other rungs.
+  virtual std::vector<double> steady_column(const Grains&, const ImposedFlow&) { return {}; }
 
   const Scene scene;
   FlowAtGrains flow;

@@ -75,7 +75,8 @@ struct Experiment::Parts {
   void begin_hold(State&);
   void freeze(State&) const;
   void forget_flow(State&) const;
-  void add_steady_flow(State&, const ImposedFlow& change) const;
+  std::vector<double> steady_flow(const State&, const ImposedFlow&);
+  void add_steady_flow(State&, const ImposedFlow& change);
 };
 
 Experiment::Experiment(const Scene& scene) : parts_(std::make_unique<Parts>(scene)) {}
@@ -289,23 +290,29 @@ void Experiment::Parts::forget_flow(State& state) const {
   s.shields = s.lid_speed = s.gradient = s.push = s.through_flow = 0;
 }
 
-void Experiment::Parts::add_steady_flow(State& state, const ImposedFlow& change) const {
+/// u of every plane of cells. A column knows its own; in the box it is that over a bed which holds its fluid still.
+std::vector<double> Experiment::Parts::steady_flow(const State& state, const ImposedFlow& flow) {
+  if (scene.fluid == FluidRung::column) return coupler.steady_column(state.grains, flow);
+  const double z_b = state.search.bed_height;
+  return turbulent_flow(scene, z_b, friction_speed_of(scene, flow, z_b)).planes;
+}
+
+void Experiment::Parts::add_steady_flow(State& state, const ImposedFlow& change) {
   const StaggeredGrid& grid = scene.grid;
   if (!grid.periodic(0) || grid.periodic(2))
     return;   // between end walls, or without bottom and top, the flow is not this one
-  const double z_b = state.search.bed_height;
+  const bool linear = !scene.terms.turbulence && scene.fluid != FluidRung::column;   // in what drives it
   std::vector<double> before_it, after_it;
-  if (scene.terms.turbulence) {   // not linear in what drives it
+  if (!linear) {
     const Search& s = state.search;
-    const ImposedFlow old{.lid_speed = s.lid_speed, .gradient = s.gradient},
-        now{.lid_speed = s.lid_speed + change.lid_speed, .gradient = s.gradient + change.gradient};
-    before_it = turbulent_flow(scene, z_b, friction_speed_of(scene, old, z_b)).planes;
-    after_it = turbulent_flow(scene, z_b, friction_speed_of(scene, now, z_b)).planes;
+    before_it = steady_flow(state, {.lid_speed = s.lid_speed, .gradient = s.gradient});
+    after_it =
+        steady_flow(state, {.lid_speed = s.lid_speed + change.lid_speed, .gradient = s.gradient + change.gradient});
   }
   for (int k = 0; k < grid.cells[2]; ++k) {
     const auto n = static_cast<std::size_t>(k);
-    const double more = scene.terms.turbulence ? after_it[n] - before_it[n]
-                                               : steady_increment(scene, change, z_b, (k + 0.5) * grid.h.z);
+    const double more = linear ? steady_increment(scene, change, state.search.bed_height, (k + 0.5) * grid.h.z)
+                               : after_it[n] - before_it[n];
     for (int i = 0; i < grid.cells[0]; ++i)
       for (int j = 0; j < grid.cells[1]; ++j) state.fluid.velocity.x[grid.index(i, j, k)] += more;
   }

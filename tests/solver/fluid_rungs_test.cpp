@@ -93,6 +93,38 @@ TEST(FluidRungs, ColumnAndBoxAgreeOverAFixedBedInLaminarFlow) {
   report("column", column), report("profile", profile);
 }
 
+/// A hold in a column begins with its own steady flow: over grains that do not move it stays, and a gradient's stress is the nominal one.
+TEST(FluidRungs, AColumnBeginsItsHoldsWithItsOwnSteadyFlow) {
+  for (const bool turbulence : {false, true})
+    for (const FlowRamp::Kind kind : {FlowRamp::Kind::lid, FlowRamp::Kind::pressure}) {
+      Scene scene = sheared(FluidRung::column, 0.05, fixed_bed(1), in_bed);
+      scene.terms.turbulence = turbulence;
+      scene.terms.added_mass = scene.terms.viscous_torque = scene.terms.shear_lift = true;
+      scene.drive.kind = kind;
+      scene.drive.levels = {0.05, 0.08};   // the second is the first and an increment
+      if (kind == FlowRamp::Kind::pressure) scene.bed.top = scene.grid.top = Top::free_slip;
+      scene.drive.dwell = 100 * scene.steps.fluid_interval;
+      Experiment experiment(scene);
+      State state = experiment.begin();
+      for (const int hold : {0, 1}) {
+        ASSERT_EQ(ailment(experiment.step(state)), "");
+        const FluidState begun = state.fluid;
+        while (!Experiment::finished(state) && state.search.hold == std::uint64_t(hold))
+          ASSERT_EQ(ailment(experiment.step(state)), "");
+        const auto u = plane_means(state.fluid.velocity.x, scene.grid),
+                   before = plane_means(begun.velocity.x, scene.grid);
+        EXPECT_GT(u.back(), 0);
+        EXPECT_LT(largest_difference(u, before), 1e-8 * u.back()) << turbulence << int(kind) << hold;
+        const BedRecord::Holds& row = state.record.holds;
+        const auto n = static_cast<std::size_t>(hold);
+        EXPECT_LT(row.stress_residual.at(n), 1e-6);
+        if (kind == FlowRamp::Kind::pressure) {
+          EXPECT_NEAR(row.shields_measured.at(n), scene.drive.levels[n], 1e-6 * scene.drive.levels[n]);
+        }
+      }
+    }
+}
+
 struct Drive {
   FlowRamp::Kind kind;
   bool added_mass, viscous_torque;
