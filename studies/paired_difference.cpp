@@ -24,6 +24,11 @@ SingleDifference log_ratio(double base, double base_lower, double base_upper, do
   return {std::log(other / base), std::hypot(deviation(base_lower, base_upper), deviation(other_lower, other_upper))};
 }
 
+SingleDifference symmetric_difference(double base, double base_error, double other, double other_error) {
+  const double sum = base + other;
+  return {2 * (other - base) / sum, 4 / (sum * sum) * std::hypot(other * base_error, base * other_error)};
+}
+
 double pooled_deviation(const Differences& all) {
   double squares = 0, freedom = 0;
   for (const auto& singles : all) {
@@ -46,6 +51,15 @@ PairedDifference paired(const std::vector<SingleDifference>& singles, double poo
 
 PairedDifference relative(const PairedDifference& logarithmic) {
   return {std::expm1(logarithmic.mean), logarithmic.uncertainty * std::exp(logarithmic.mean)};
+}
+
+PairedDifference relative_of_symmetric(const PairedDifference& symmetric) {
+  const auto ratio = [](double s) { return s < 2 ? (2 + s) / (2 - s) : std::numeric_limits<double>::infinity(); };
+  const double mean = symmetric.mean, low = std::fmax(mean - symmetric.uncertainty, -2),
+               high = mean + symmetric.uncertainty;
+  const double below = ratio(mean) - ratio(low), above = ratio(high) - ratio(mean);
+  if (!symmetric.seen()) return {ratio(mean) - 1, std::fmax(below, above)};
+  return {ratio(mean) - 1, mean > 0 ? below : above};
 }
 
 }   // namespace bedload

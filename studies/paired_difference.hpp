@@ -24,6 +24,10 @@ struct SingleDifference {
 SingleDifference log_ratio(double base, double base_lower, double base_upper, double other, double other_lower,
                            double other_upper);
 
+/// 2 (other - base)/(other + base), from -2 to 2, of two numbers with their standard errors, which are not below zero and not both
+/// zero: scatters alike for large changes and small ones, and knows what stands still.
+SingleDifference symmetric_difference(double base, double base_error, double other, double other_error);
+
 /// The same change in several packings; one list per change.
 using Differences = std::vector<std::vector<SingleDifference>>;
 
@@ -36,5 +40,8 @@ PairedDifference paired(const std::vector<SingleDifference>&, double pooled);
 
 /// A difference of logarithms as a relative one: exp(mean) - 1.
 PairedDifference relative(const PairedDifference& logarithmic);
+
+/// A symmetric difference as a relative one; seen where that is seen. The uncertainty is that towards zero; of what is not seen, the larger.
+PairedDifference relative_of_symmetric(const PairedDifference& symmetric);
 
 }   // namespace bedload

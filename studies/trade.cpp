@@ -33,6 +33,7 @@ struct Outcome {
   double shields, lower, upper;   // theta_c and its bracket [-]
   std::vector<Stair> stairs;
   double core_seconds;
+  std::string bed_id;
 };
 
 std::optional<Outcome> outcome_of(const Database& database, const std::string& id) {
@@ -40,7 +41,7 @@ std::optional<Outcome> outcome_of(const Database& database, const std::string& i
       "SELECT shields, shields_lower, shields_upper FROM thresholds WHERE decides = 1 AND case_id = ?", {id});
   if (thresholds.rows.empty()) return {};
   const auto& row = thresholds.rows.front();
-  Outcome found{number_in(row[0]), number_in(row[1]), number_in(row[2]), {}, 0};
+  Outcome found{number_in(row[0]), number_in(row[1]), number_in(row[2]), {}, 0, {}};
   const auto stairs = database.query(
       "SELECT shields_nominal, event_flux, event_flux_error, bed_height_m / diameter_m, porosity FROM ramp_points "
       "JOIN scenes USING (case_id) WHERE purpose IN ('ramp', 'staircase') AND case_id = ? ORDER BY hold",
@@ -63,8 +64,7 @@ std::optional<SingleDifference> theta_difference(const Outcome& finest, const Ou
 std::optional<SingleDifference> flux_difference(const Outcome& finest, const Outcome& other) {
   for (std::size_t k = std::min(finest.stairs.size(), other.stairs.size()); k-- > 0;) {
     const Stair &a = finest.stairs[k], &b = other.stairs[k];
-    if (a.level == b.level && a.flux > 0)
-      return SingleDifference{b.flux / a.flux - 1, std::hypot(a.flux_error, b.flux_error) / a.flux};
+    if (a.level == b.level && a.flux > 0) return symmetric_difference(a.flux, a.flux_error, b.flux, b.flux_error);
   }
   return {};
 }
@@ -92,21 +92,38 @@ const std::vector<NamedMeasure>& measures() {
 /// The packings of a setting, by the case of the finest one that each is compared with.
 using Packings = std::map<std::string, Outcome>;
 
+/// One setting's differences to the finest, packing by packing.
+std::vector<SingleDifference> differences_of(const Packings& setting, const Packings& finest, const Measure& of) {
+  std::vector<SingleDifference> singles;
+  for (const auto& [base, outcome] : setting)
+    if (const auto found = finest.find(base); found != finest.end())
+      if (const auto single = of(found->second, outcome)) singles.push_back(*single);
+  return singles;
+}
+
+bool on_the_same_beds(const Packings& setting, const Packings& finest) {
+  return std::ranges::all_of(setting, [&](const auto& one) {
+    const auto found = finest.find(one.first);
+    return found == finest.end() || found->second.bed_id == one.second.bed_id;
+  });
+}
+
+/// The deviation from packing to packing is pooled over all settings that begin on the finest's beds; where a setting has beds of its own, over
+/// those too, which scatter more, never less.
 void compare(const std::vector<Packings>& outcomes, std::vector<TradeSetting>& settings) {
   const Packings& finest = outcomes.front();
   for (const auto& [member, of] : measures()) {
-    Differences all;
-    for (const auto& packings : outcomes) {
-      auto& singles = all.emplace_back();
-      if (&packings == &finest) continue;
-      for (const auto& [base, outcome] : packings)
-        if (const auto found = finest.find(base); found != finest.end())
-          if (const auto single = of(found->second, outcome)) singles.push_back(*single);
+    Differences all, same_beds, other_beds;
+    for (std::size_t n = 1; n < settings.size(); ++n) {
+      all.push_back(differences_of(outcomes[n], finest, of));
+      (on_the_same_beds(outcomes[n], finest) ? same_beds : other_beds).push_back(all.back());
     }
-    const double pooled = pooled_deviation(all);
-    for (std::size_t n = 1; n < settings.size(); ++n) settings[n].*member = paired(all[n], pooled);
+    const double same = pooled_deviation(same_beds), other = std::max(same, pooled_deviation(other_beds));
+    for (std::size_t n = 1; n < settings.size(); ++n)
+      settings[n].*member = paired(all[n - 1], on_the_same_beds(outcomes[n], finest) ? same : other);
   }
-  for (TradeSetting& setting : settings) setting.theta = relative(setting.theta);
+  for (TradeSetting& setting : settings)
+    setting.theta = relative(setting.theta), setting.flux = relative_of_symmetric(setting.flux);
 }
 
 void mark_frontier(std::vector<TradeSetting>& settings) {
@@ -129,8 +146,9 @@ Setting value_in(const Study& study, const std::string& key) {
 }
 
 void add_case(const Database& database, const Case& one, Packings& packings, TradeSetting& setting) {
-  const auto outcome = outcome_of(database, one.id);
+  auto outcome = outcome_of(database, one.id);
   if (!outcome) return;
+  outcome->bed_id = one.bed_id;
   packings[one.base_id.empty() ? one.id : one.base_id] = *outcome;
   if (setting.packings == 0) setting.fall_speed = lone_fall_speed(one.scene);
   ++setting.packings;

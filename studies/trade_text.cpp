@@ -13,18 +13,24 @@ namespace bedload {
 
 namespace {
 
+/// Two digits, or the whole part where it has more: "0.031", "3.1", "140".
+std::string in_two_digits(double number) {
+  return std::abs(number) < 99.5 ? fmt::format("{:.2g}", number) : fmt::format("{:.0f}", number);
+}
+
+std::string signed_in_two_digits(double number) { return (number < 0 ? "" : "+") + in_two_digits(number); }
+
 /// "+3.1 %", or "< 4 %" where it is not seen; "-" where it was not measured.
 std::string difference_in_words(const PairedDifference& d, double unit, std::string_view sign) {
   if (!std::isfinite(d.mean) || d.uncertainty == 0) return "-";
   const double scale = 1 / unit;
-  return d.seen() ? fmt::format("{:+.2g}{}", scale * d.mean, sign)
-                  : fmt::format("< {:.2g}{}", scale * d.uncertainty, sign);
+  return (d.seen() ? signed_in_two_digits(scale * d.mean) : "< " + in_two_digits(scale * d.uncertainty)) += sign;
 }
 
 /// Of a fall, which no packing scatters.
 std::string fall_in_words(const TradeSetting& one, const TradeSetting& finest) {
   const double difference = one.fall_speed / finest.fall_speed - 1;
-  return std::isfinite(difference) && &one != &finest ? fmt::format("{:+.2g}%", 100 * difference) : "-";
+  return std::isfinite(difference) && &one != &finest ? signed_in_two_digits(100 * difference) + "%" : "-";
 }
 
 std::vector<const TradeSetting*> cheapest_first(const Trade& trade) {

@@ -63,11 +63,14 @@ TEST(TradeStudy, RefusesWhatIsNoTrade) {
 class MeasuredTrade : public ::testing::Test {
  protected:
   MeasuredTrade() {
+    create_result_tables(database);
+    enrol_all();
+  }
+  void enrol_all() {
     Ledger ledger(database, directory_.path());
     std::vector<CaseEntry> entries;
     for (const Case& one : cases) entries.push_back(case_entry(one));
     ledger.enrol(entries);
-    create_result_tables(database);
     store_variations(database, cases);
   }
   void finish(const Case& one, double lower, double upper, double flux, double height, double core_seconds) {
@@ -149,6 +152,62 @@ TEST_F(MeasuredTrade, KnowsNoDifferenceBetterThanPackingsAgreeOnIt) {
   const double bracket = std::log(1.04) / std::sqrt(6.0);
   EXPECT_NEAR(mesh.theta.mean, 1.1 * std::sqrt(1.2) - 1, 1e-12);
   EXPECT_NEAR(mesh.theta.uncertainty, 1.1 * std::sqrt(1.2) * 2 * std::hypot(pooled, bracket) / std::sqrt(2.0), 1e-12);
+}
+
+/// Beds that a setting pours for itself differ from packing to packing; what begins on the same beds is known better.
+TEST_F(MeasuredTrade, LetsOtherBedsBlurNothingThatBeginsOnTheSame) {
+  study = parse_study(one_scene() + two_trades + "[[trade]]\nname = \"rough\"\ngrains.friction = 0.8\n", "study.toml");
+  cases = unfold(study);
+  ASSERT_NE(cases[6].bed_id, cases[0].bed_id);
+  enrol_all();
+  finish_all();
+  finish(cases[6], 0.100, 0.104, 0.2, 3.0, 20), finish(cases[7], 0.120, 0.1248, 0.3, 4.9, 24);   // -1 d, +0.7 d
+  const Trade trade = measured_trade(database, study, cases);
+  EXPECT_TRUE(trade.settings[2].height.seen());
+  EXPECT_LT(trade.settings[2].height.uncertainty, 1e-9);
+  EXPECT_FALSE(trade.settings[3].height.seen());
+  EXPECT_NEAR(trade.settings[3].height.uncertainty, 1.7, 1e-9);   // 2 * (1.7/sqrt(2))/sqrt(2)
+}
+
+/// Two packings of one setting may agree by chance: other beds are never taken to scatter less than the same ones.
+TEST_F(MeasuredTrade, TakesNoAgreementOfOtherBedsByChanceForKnowledge) {
+  study = parse_study(one_scene() + two_trades + "[[trade]]\nname = \"rough\"\ngrains.friction = 0.8\n", "study.toml");
+  cases = unfold(study);
+  enrol_all();
+  finish_all();
+  finish(cases[6], 0.102, 0.10608, 0.2, 4.0, 20), finish(cases[7], 0.1224, 0.127296, 0.3, 4.2, 24);   // both +2 %
+  EXPECT_LT(measured_trade(database, study, cases).settings[3].theta.uncertainty, 0.04);
+  database.execute("UPDATE thresholds SET shields = shields*1.5 WHERE case_id = ?", {cases[3].id});
+  EXPECT_GT(measured_trade(database, study, cases).settings[3].theta.uncertainty, 0.2);
+}
+
+/// What moves a hundred times more in one packing alone says nothing of a setting that halves the flux in both.
+TEST_F(MeasuredTrade, LetsNoOutburstOfOneSettingBlurTheFluxOfAnother) {
+  finish_all();
+  database.execute("UPDATE ramp_points SET event_flux = event_flux/4 WHERE case_id IN (?, ?)",
+                   {cases[2].id, cases[3].id});   // twice the finest's, now half of it
+  database.execute("UPDATE ramp_points SET event_flux = event_flux*100 WHERE case_id = ?", {cases[4].id});
+  const Trade trade = measured_trade(database, study, cases);
+  EXPECT_NEAR(trade.settings[1].flux.mean, -0.5, 1e-12);
+  EXPECT_LT(trade.settings[1].flux.uncertainty, 2);
+  EXPECT_GT(trade.settings[2].flux.mean, 1);
+  EXPECT_EQ(trade_as_table(trade).find("e+"), std::string::npos) << trade_as_table(trade);
+}
+
+TEST(SymmetricDifference, IsARatioAgainAndSeenWhereItWas) {
+  const auto ratio_of = [](double base, double other, double uncertainty) {
+    return relative_of_symmetric({symmetric_difference(base, 0, other, 0).difference, uncertainty});
+  };
+  EXPECT_NEAR(ratio_of(2, 3, 0).mean, 0.5, 1e-15);
+  EXPECT_NEAR(ratio_of(2, 0, 0).mean, -1, 1e-15);
+  for (const double other : {0.0, 0.1, 1.9, 2.1, 30.0})
+    for (const double uncertainty : {0.01, 0.1, 1.0}) {
+      const double s = symmetric_difference(2, 0, other, 0).difference;
+      EXPECT_EQ(ratio_of(2, other, uncertainty).seen(), std::abs(s) > uncertainty) << other << ' ' << uncertainty;
+    }
+  // small errors pass on linearly: 2 +- 0.02 and 3 +- 0.03 are a ratio of 1.5 +- 0.0212
+  const auto small = symmetric_difference(2, 0.02, 3, 0.03);
+  EXPECT_NEAR(relative_of_symmetric({small.difference, small.error}).uncertainty, 1.5 * std::hypot(0.01, 0.01), 1e-3);
 }
 
 TEST_F(MeasuredTrade, LeavesOutWhatHasNotRun) {
