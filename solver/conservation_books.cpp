@@ -162,6 +162,7 @@ double ConservationBooks::Parts::of_added_mass(const State& state) {
     const Quad read = sample(Weights(stencils[p]), stride, woven.at(stencils[p]));
     flow[p] = on_faces(read), void_fraction[p] = in_cell(read);
   }
+  packing.crowded = scene.terms.crowded;
   find_packing(grid, grains, packed, void_fraction, packing, smoothing);
   find_added_mass(grains, void_fraction, packing, scene.terms.model_b(), added);
   double sum = 0;

@@ -60,7 +60,7 @@ void Coupler::Rung::predict_spins(const State& state, double dt) {
     const double re = d * d * norm(0.5 * flow.vorticity[p] - spin) / nu;
     const double c = std::numbers::pi * nu * d * d * d * torque_factor(re);
     WallTorque wall;
-    if (scene.terms.wall_forces) wall = wall_torque(grid, grains.position[p], d, flow.packing.others[p]);
+    if (scene.terms.wall_forces) wall = wall_torque(grid, grains.position[p], d, flow.packing.loneness(p));
     spin_strength[p] = dt * c * wall.shear, spin_target[p] = spin_start[p] = {};
     if (grains.fixed[p]) continue;
     const double inertia = sphere_inertia(grains.density[p] * sphere_volume(d), d);

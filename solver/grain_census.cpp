@@ -97,7 +97,8 @@ void count_table(const Scene& scene, GrainCensus& census) {
     if (!grains.fixed[n]) census.fastest_spin = std::max(census.fastest_spin, norm(grains.spin[n]));
     census.densest = std::max(census.densest, around[n]);
     census.loosest = std::min(census.loosest, around[n]);
-    if (loneness(around[n]) > 0) census.nearness = std::max(census.nearness, nearness_of(scene, grains, n));
+    if (loneness(around[n], scene.terms.crowded) > 0)
+      census.nearness = std::max(census.nearness, nearness_of(scene, grains, n));
   }
   census.bed = census.densest > packed_around;
 }
@@ -111,7 +112,8 @@ void count_packed(const Scene& scene, GrainCensus& census) {
   census.bed = settles || dispersed > packed;
   census.densest = settles ? loose_packing : dispersed;
   census.loosest = settles ? 0 : dispersed;
-  if (!settles && loneness(dispersed) > 0 && census.mobile && lands(bed, bed.grains.density)) census.nearness = 1;
+  if (!settles && loneness(dispersed, scene.terms.crowded) > 0 && census.mobile && lands(bed, bed.grains.density))
+    census.nearness = 1;
   census.smallest = smallest_diameter(bed);
 }
 

@@ -85,7 +85,7 @@ constexpr auto not_widened =
 ModelChoice self_disturbance(const SceneFacts& f) {
   if (widened(f)) return {.ratio = no_number, .reason = not_widened};
   const double share = f.n.self_response;
-  if (loneness(f.grains.loosest) == 0)
+  if (loneness(f.grains.loosest, f.scene.terms.crowded) == 0)
     return {.ratio = no_number,
             .reason = fmt::format("no lone grain: a packing of at least {:.2g} around every one", f.grains.loosest)};
   const auto worth = share < 1 ? fmt::format("falls about {:.2g} % too fast", 100 * share / (1 - share))
@@ -185,8 +185,9 @@ ModelChoice wall_forces(const SceneFacts& f) {
   if (k == 0)
     return {.ratio = 0,
             .reason = fmt::format("{}: a drag law for many grains knows the neighbours",
-                                  loneness(f.grains.loosest) > 0 && !f.grains.bed ? "no plane wall near a lone grain"
-                                                                                  : "no lone grain beside a wall")};
+                                  loneness(f.grains.loosest, f.scene.terms.crowded) > 0 && !f.grains.bed
+                                      ? "no plane wall near a lone grain"
+                                      : "no lone grain beside a wall")};
   return {
       .wanted = k > near_wall,
       .ratio = ratio,

@@ -220,6 +220,13 @@ void check_frozen(const Scene& scene, Found& found) {
                      "bed.source = \"poured\", or leave frozen_depth out"});
 }
 
+void check_crowded(const Scene& scene, Found& found) {
+  if (scene.terms.crowded > 0 && scene.terms.crowded <= 1) return;
+  found.push_back({"models.crowded",
+                   fmt::format("no grains are packed to {:g}: above 0 and at most 1 are accepted", scene.terms.crowded),
+                   "0.04, or up to 0.3 to see what it does to a bed's surface"});
+}
+
 void check_tracks(const Scene& scene, Found& found) {
   for (const auto id : scene.record.tracks) {
     if (scene.bed.source.kind == BedSource::Kind::file || id < scene.bed.source.count) continue;
@@ -278,6 +285,7 @@ std::vector<SceneProblem> problems_of(const Scene& scene) {
   check_smoothing(scene, found);
   check_roughness(scene, found);
   check_frozen(scene, found);
+  check_crowded(scene, found);
   check_tracks(scene, found);
   check_steps(scene, found);
   return found;

@@ -29,6 +29,7 @@ struct Terms {
   bool lubrication = false;       // ...or by the film between the grains: not both
   bool exposure = false;          // more drag on grains that stand out of a bed
   bool turbulence = false;        // eddy viscosity and wall laws
+  double crowded = 0.04;   // packing of others from which on nothing of what is right for a lone grain is left [-]
   /// pressure_gradient and viscous_stress are the grains' half of the void fraction in the fluid's equation:
   /// both (Model A) or neither (Model B).
   bool model_b() const { return !pressure_gradient; }

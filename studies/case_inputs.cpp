@@ -302,6 +302,7 @@ void Resolver::models() {
   if (is_auto("models.fluid")) inputs.values["models.fluid"] = std::string("box");
   else take("models.fluid");
   take("models.drag");
+  take_unless_default("models.crowded");
   if (is_auto("models.terms"))
     inputs.values["models.terms"] = std::vector<std::string>{};   // until wanted() knows them
   else take("models.terms");

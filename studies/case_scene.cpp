@@ -123,6 +123,7 @@ Terms terms_of(const CaseInputs& inputs) {
   const auto on = [&](const char* term) { return std::ranges::find(names, term) != names.end(); };
   Terms terms;
   for (const auto& [name, term] : named_terms) terms.*term = on(name.data());
+  if (inputs.has("models.crowded")) terms.crowded = inputs.number("models.crowded");
   return terms;
 }
 

@@ -128,6 +128,7 @@ constexpr StudyKey keys[] = {
     {"models.smoothing.xy", Kind::quantity, dimension::length, Range::not_negative, {}, {}, "0 m", true, "sxy"},
     {"models.smoothing.z", Kind::quantity, dimension::length, Range::not_negative, {}, {}, "0 m", true, "sz"},
     {"models.frozen_depth", Kind::quantity, dimension::length, Range::not_negative, {}, {}, "0 m", true, "frozen"},
+    number("models.crowded", Range::positive, "crowded", "0.04"),
     {"models.terms", Kind::words, dimension::number, Range::any, terms, {}, "auto", true, "terms"},
     not_physics(amount("models.accuracy.target", dimension::number, "")),
     not_physics(text("models.accuracy.from", "")),

@@ -14,7 +14,7 @@ void find_added_mass(const Grains& grains, std::span<const double> void_fraction
   added.resize(grains.size());
   for (std::size_t p = 0; p < grains.size(); ++p) {
     const double volume = sphere_volume(grains.diameter[p]), packing = std::clamp(1 - void_fraction[p], 0.0, densest);
-    const double others = std::max(0.0, packing - loneness(surroundings.others[p]) * surroundings.own[p]);
+    const double others = std::max(0.0, packing - surroundings.loneness(p) * surroundings.own[p]);
     added[p] = added_mass_coefficient(others) * volume / (model_b ? 1 - packing : 1);
   }
 }

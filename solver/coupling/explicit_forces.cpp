@@ -24,8 +24,7 @@ struct WallThere {
   NearWall wall;
   double share;
 };
-std::optional<WallThere> wall_at(const StaggeredGrid& grid, Vec3 position, double others) {
-  const double share = loneness(others);
+std::optional<WallThere> wall_at(const StaggeredGrid& grid, Vec3 position, double share) {
   const auto wall = nearest_wall(grid, position);
   if (!wall || share == 0) return {};
   return WallThere{*wall, share};
@@ -56,9 +55,9 @@ bool any_explicit(const Terms& terms) {
   return terms.shear_lift || terms.magnus || terms.wall_forces || terms.exposure;
 }
 
-WallTorque wall_torque(const StaggeredGrid& grid, Vec3 position, double diameter, double others) {
+WallTorque wall_torque(const StaggeredGrid& grid, Vec3 position, double diameter, double loneness) {
   WallTorque factors;
-  const auto there = wall_at(grid, position, others);
+  const auto there = wall_at(grid, position, loneness);
   if (!there) return factors;
   const double k = 0.5 * diameter / there->wall.distance;
   for (int c = 0; c < 3; ++c) {
@@ -87,7 +86,7 @@ LiftedGrain meet_wall(const Surroundings& around, const Grains& grains, const Te
   g.slip = scaled(g.applied, flow.velocity[p] - grains.velocity[p]);
   g.relative_spin = grains.spin[p] - 0.5 * g.vorticity;
   std::optional<WallThere> there;
-  if (terms.wall_forces) there = wall_at(around.grid, grains.position[p], flow.packing.others[p]);
+  if (terms.wall_forces) there = wall_at(around.grid, grains.position[p], flow.packing.loneness(p));
   if (!there) return g;
   const WallDrag drag = add_wall_drag(around, *there, d, p, flow);
   const Vec3 wall = wall_velocity(around, there->wall), grain = grains.velocity[p] - wall;

@@ -22,7 +22,7 @@ bool any_explicit(const Terms&);
 struct WallTorque {
   Vec3 shear{1, 1, 1}, spin{1, 1, 1};
 };
-WallTorque wall_torque(const StaggeredGrid&, Vec3 position, double diameter, double packing_of_others);
+WallTorque wall_torque(const StaggeredGrid&, Vec3 position, double diameter, double loneness);
 
 /// Adds these terms, in this order: walls change flow.drag and add to flow.force; lift and exposure add to flow.force.
 /// Reads flow.velocity, vorticity, void_fraction, packing, drag, removed; a lift never exceeds half of the drag (limited_lift), which is

@@ -61,7 +61,7 @@ void evaluate_drag(const Law& law, const StaggeredGrid& grid, const Grains& grai
     Vec3 slip[4];
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t p = first + k;
-      lone[k] = loneness(flow.packing.others[p]);
+      lone[k] = flow.packing.loneness(p);
       const double surroundings = flow.void_fraction[p] + lone[k] * flow.packing.own[p];
       eps[k] = std::clamp(surroundings, least_void, 1.0);
       flow.void_clamps += eps[k] != surroundings && surroundings < least_void;
@@ -112,6 +112,7 @@ void sample_flow(const StaggeredGrid& grid, const Grains& grains, const Stencils
 
 void find_drag(const StaggeredGrid& grid, const Grains& grains, const DragLaw& law, double viscosity,
                const Terms& terms, FlowAtGrains& flow) {
+  flow.packing.crowded = terms.crowded;
   if (!terms.drag) return;
   if (terms.self_disturbance) flow.removed.assign(grains.size(), {});
   if (terms.self_disturbance && !flow.self_disturbance) flow.self_disturbance.emplace(grid);

@@ -230,11 +230,14 @@ TEST(PackingOfOthers, CountsNeighboursAndTheirPlane) {
 }
 
 TEST(PackingOfOthers, MakesALoneGrainAndABedWithAllBetween) {
-  EXPECT_EQ(loneness(0), 1);
-  EXPECT_EQ(loneness(0.01), 1);
-  EXPECT_EQ(loneness(0.04), 0);
-  EXPECT_EQ(loneness(0.6), 0);
-  for (double phi = 0.011; phi < 0.039; phi += 0.001) EXPECT_GT(loneness(phi), loneness(phi + 0.001));
+  EXPECT_EQ(loneness(0, 0.04), 1);
+  EXPECT_EQ(loneness(0.01, 0.04), 1);
+  EXPECT_EQ(loneness(0.04, 0.04), 0);
+  EXPECT_EQ(loneness(0.6, 0.04), 0);
+  EXPECT_EQ(loneness(0.07, 0.3), 1);
+  EXPECT_EQ(loneness(0.3, 0.3), 0);
+  EXPECT_EQ(loneness(0.1875, 0.3), 0.5);   // half-way
+  for (double phi = 0.011; phi < 0.039; phi += 0.001) EXPECT_GT(loneness(phi, 0.04), loneness(phi + 0.001, 0.04));
 }
 
 /// Drag of a still grain in a uniform stream along x, alone or amid 26 others of its kind that touch; cells of h diameters.
@@ -261,6 +264,19 @@ TEST(LoneGrain, DoesNotSeeItsOwnVolume) {
   EXPECT_NEAR(drag_of_a_grain(2.5, true, {}).x / law, 1, 1e-12);
   EXPECT_NEAR(drag_of_a_grain(1, true, {}).x / law, 1, 1e-12);
   EXPECT_GT(drag_of_a_grain(2, false, {}).x / law, 1.5);
+}
+
+TEST(LoneGrain, IsLoneInTheCompanyThatTheSceneCallsSo) {
+  const double law = 3 * pi * DiFelice{}.multiplier(1, 1e-3);
+  const double in_company = drag_of_a_grain(2, false, {}).x;
+  const auto with_crowded = [&](double packing) {
+    Terms terms;
+    terms.crowded = packing;
+    return drag_of_a_grain(2, false, terms).x;
+  };
+  EXPECT_EQ(with_crowded(0.04), in_company);
+  EXPECT_LT(with_crowded(1), in_company);   // its own volume is left out, that of the others is not
+  EXPECT_GT(with_crowded(1), law);
 }
 
 Terms model_b_without_own_flow() {
