@@ -102,31 +102,66 @@ std::string trade_as_json(const Trade& trade) {
   return json.dump(2) + "\n";
 }
 
+namespace {
+
+std::vector<const TradeSetting*> measured_cheapest_first(const Trade& trade) {
+  std::vector<const TradeSetting*> all = cheapest_first(trade);
+  std::erase_if(all, [](const auto* one) { return one->packings == 0 || !std::isfinite(one->theta.size()); });
+  return all;
+}
+
+double highest_bar(const std::vector<const TradeSetting*>& settings) {
+  double highest = 0.02;
+  for (const TradeSetting* one : settings)
+    highest = std::max(highest, one->theta.size() + (one->theta.seen() ? one->theta.uncertainty : 0));
+  return highest;
+}
+
+/// Where the number of a point without a bar stands: above it, or, where the one before stands near, below; at the foot of the picture higher.
+class NumberPlaces {
+ public:
+  /// Places and answer as shares of the axes.
+  double above(double x, double y) {
+    const bool near = x - last_x_ < 0.035 && std::abs(y - last_y_) < 0.08;
+    up_ = !(near && up_), last_x_ = x, last_y_ = y;
+    return up_ ? 0.02 : y > 0.05 ? -0.045 : 0.065;
+  }
+
+ private:
+  double last_x_ = -1, last_y_ = -1;
+  bool up_ = false;
+};
+
+}   // namespace
+
+/// Settings are numbered by their cost: names beside the points would lie on each other.
 std::string trade_figure(const Trade& trade) {
-  double cheapest = std::numeric_limits<double>::infinity(), dearest = 0, worst = 0.02;
-  for (const TradeSetting& one : trade.settings) {
-    if (one.packings == 0) continue;
-    cheapest = std::min(cheapest, one.core_seconds), dearest = std::max(dearest, one.core_seconds);
-    if (std::isfinite(one.theta.size())) worst = std::max(worst, one.theta.size());
+  const auto settings = measured_cheapest_first(trade);
+  if (settings.empty()) return {};
+  const double low = settings.front()->core_seconds / 1.5, high = settings.back()->core_seconds * 1.5,
+               top = 110 * highest_bar(settings);
+  SvgPlot plot(900, std::max(440.0, 150 + 18.0 * static_cast<double>(settings.size())),
+               {"core seconds of one packing", low, high, true},
+               {"error of θc against the finest setting  [%]", 0, top, false}, 260);
+  plot.legend_heading("settings, cheapest first");
+  NumberPlaces places;
+  for (std::size_t n = 0; n < settings.size(); ++n) {
+    const TradeSetting& one = *settings[n];
+    const bool finest = &one == &trade.settings.front(), filled = finest || one.theta.seen();
+    const std::string_view colour = one.frontier ? "#1f6feb" : "#8a8a8a";
+    const std::string difference = finest ? "" : difference_in_words(one.theta, 0.01, "%"),
+                      number = std::to_string(n + 1);
+    const double cost = one.core_seconds, error = 100 * one.theta.size(), bar = 100 * one.theta.uncertainty;
+    if (one.theta.seen()) plot.vertical_bar(cost, std::max(0.0, error - bar), error + bar, colour);
+    plot.marker({cost, error}, Marker::circle, colour, filled,
+                fmt::format("{} {}: {} at {:.3g} core s", number, one.name, difference, cost));
+    const double up = places.above(std::log(cost / low) / std::log(high / low), error / top);
+    if (filled) plot.note({cost * std::pow(high / low, 0.013), error + 0.02 * top}, number, colour);
+    else plot.note({cost, error + up * top}, number, colour, "middle");
+    plot.legend_marker(fmt::format("{} {} {}", number, one.name, difference), Marker::circle, colour, filled);
   }
-  SvgPlot plot(900, 440, {"core seconds of one packing", cheapest / 1.5, dearest * 1.5, true},
-               {"error of θc against the finest setting  [%]", 0, 110 * worst, false}, 260);
-  plot.legend_heading("settings");
-  for (const TradeSetting* one : cheapest_first(trade)) {
-    if (one->packings == 0 || !std::isfinite(one->theta.size())) continue;
-    const std::string_view colour = one->frontier ? "#1f6feb" : "#8a8a8a";
-    const double error = 100 * one->theta.size();
-    if (one->theta.seen())
-      plot.vertical_bar(one->core_seconds, std::max(0.0, error - 100 * one->theta.uncertainty),
-                        error + 100 * one->theta.uncertainty, colour);
-    plot.marker({one->core_seconds, error}, Marker::circle, colour, one->theta.seen() || one->name == "finest",
-                fmt::format("{}: {} at {:.3g} core s", one->name, difference_in_words(one->theta, 0.01, "%"),
-                            one->core_seconds));
-    plot.note({one->core_seconds, error}, "\u00a0\u00a0" + one->name, colour);
-  }
-  plot.legend_marker("on the frontier", Marker::circle, "#1f6feb", true);
-  plot.legend_marker("dearer, or no better", Marker::circle, "#8a8a8a", true);
-  plot.legend_marker("a bound: not seen", Marker::circle, "#8a8a8a", false);
+  plot.legend_heading("blue: on the frontier");
+  plot.legend_heading("open: a bound, not seen");
   return standing_alone(plot.svg());
 }
 
