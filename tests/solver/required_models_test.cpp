@@ -427,7 +427,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "cells high; its flow wants 4"},
         Strange{"avalanche",
                 [](Scene& s) {
-                  s.bed.gravity = {5, 0, -8.4};
+                  s.bed.gravity = {2.8, 0, -9.4};   // 16.6 degrees
                 },
                 "box.slope", "angle of repose"},
         Strange{"thin bed", [](Scene& s) { s.bed.source.count = 6000; }, "bed.count", "feels the flat bottom"},
