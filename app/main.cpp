@@ -145,7 +145,11 @@ void CommandLine::result_commands() {
                     "bedload curve shields.toml --csv > curve.csv", [this] { return curve_command(study_); });
   study_argument(curve);
   forms(curve);
-  curve->add_flag("--svg", svg_, "print the figure of the report")->excludes("--csv", "--json");
+  curve
+      ->add_flag(
+          "--svg", svg_,
+          "print the figure of the report; of one grain in one liquid looked at in several ways, them side by side")
+      ->excludes("--csv", "--json");
 
   auto* query = add("query", "any question to the result database, read only",
                     "bedload query shields.toml \"SELECT label, shields FROM threshold_curve\"",

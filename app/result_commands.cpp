@@ -115,7 +115,7 @@ int curve_command(const StudyOptions& options) {
   fmt::print("{}", options.form == Form::csv    ? curve_as_csv(curve)
                    : options.form == Form::json ? curve_as_json(curve, motion_measures(results))
                    : options.form == Form::svg
-                       ? standing_alone(threshold_figure(curve))
+                       ? standing_alone(of_one_grain(curve) ? side_by_side_figure(curve) : threshold_figure(curve))
                        : curve_as_table(curve, error_budget(results)) + motion_as_table(motion_measures(results)));
   return 0;
 }

@@ -52,9 +52,11 @@ std::string threshold_section(const std::vector<ThresholdPoint>& curve, const st
                               std::size_t finished) {
   const auto none = finished == 0 ? "<p>No case has finished yet.</p>" : "<p>No finished case seeks an onset.</p>";
   const std::string body =
-      curve.empty() ? scrolling(threshold_figure(curve)) + none
-                    : scrolling(threshold_figure(curve)) + curve_table(curve) + "<p class='caption'>" +
-                          escaped(onset_in_words(curve) + "; systematic: " + budget_in_words(budget)) + "</p>\n";
+      curve.empty()
+          ? scrolling(threshold_figure(curve)) + none
+          : scrolling(threshold_figure(curve)) + (of_one_grain(curve) ? scrolling(side_by_side_figure(curve)) : "") +
+                curve_table(curve) + "<p class='caption'>" +
+                escaped(onset_in_words(curve) + "; systematic: " + budget_in_words(budget)) + "</p>\n";
   return section(
       std::ranges::any_of(curve, is_screening) ? "Threshold of motion: screening by ramps" : "Threshold of motion",
       "θ = τ<sub>b</sub>/((ρ<sub>p</sub> − ρ<sub>f</sub>) g d) above which half of all packings begin to move, by a "

@@ -71,14 +71,23 @@ std::string bounds_of(const ThresholdPoint& p) {
   return to ? fmt::format(", below {:.4f}", p.upper) : from ? fmt::format(", above {:.4f}", p.lower) : "";
 }
 
+struct Bar {
+  double low, high;   // nan: open
+};
+
+/// The 95 % interval where there is one, else from the lowest bound of any seed to the highest.
+Bar bar_of(const ThresholdPoint& p) {
+  const bool fitted = p.confidence >= 0.95 && std::isfinite(p.interval_lower) && std::isfinite(p.interval_upper);
+  return fitted ? Bar{p.interval_lower, p.interval_upper} : Bar{p.lower, p.upper};
+}
+
 void draw_point(SvgPlot& plot, const ThresholdPoint& p, Marker shape, std::string_view colour) {
   const auto about = [&](std::string_view value) {
     return fmt::format("{}: theta_c {} at Re* = {:.3g}, {} ({}{})", p.label, value, p.reynolds, p.status,
                        counted(p.seeds, "seed"), is_screening(p) ? ", screening" : "");
   };
   if (std::isfinite(p.shields)) {
-    const bool fitted = p.confidence >= 0.95 && std::isfinite(p.interval_lower) && std::isfinite(p.interval_upper);
-    const double from = fitted ? p.interval_lower : p.lower, to = fitted ? p.interval_upper : p.upper;
+    const auto [from, to] = bar_of(p);
     const bool known_below = std::isfinite(from), known_above = std::isfinite(to);
     if (known_below || known_above)
       plot.vertical_bar(p.reynolds, known_below ? from : p.shields, known_above ? to : p.shields, colour);
@@ -124,6 +133,54 @@ std::string threshold_figure(const std::vector<ThresholdPoint>& curve) {
   plot.legend_shade(fmt::format("{} ± {}", laminar_band.shields, laminar_band.half_width), band, 0.35);
   draw_published(plot, 0.1, 2e4);
   for (const ThresholdPoint& p : curve) draw_point(plot, p, shape_of(p.density_ratio), colour_of(p.diameter));
+  return plot.svg();
+}
+
+bool of_one_grain(const std::vector<ThresholdPoint>& curve) {
+  const auto one = [&](double ThresholdPoint::*member) { return distinct_values(curve, member).size() == 1; };
+  return curve.size() > 1 && one(&ThresholdPoint::diameter) && one(&ThresholdPoint::density_ratio) &&
+         one(&ThresholdPoint::viscosity);
+}
+
+namespace {
+
+/// From the lowest bar to the highest, on an axis of logarithms.
+PlotAxis axis_of_shields(const std::vector<ThresholdPoint>& curve) {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  for (const ThresholdPoint& p : curve)
+    for (const double at : {p.shields, p.lower, p.upper, p.stop})
+      if (at > 0) low = std::fmin(low, at), high = std::fmax(high, at);
+  return {"Shields number at onset θc  [–]", low / 1.3, high * 1.3, true};
+}
+
+void draw_row(SvgPlot& plot, const ThresholdPoint& p, double row) {
+  const bool found = std::isfinite(p.shields);
+  const Bar bar = bar_of(p);
+  const double from = std::isfinite(bar.low) ? bar.low : p.shields, to = std::isfinite(bar.high) ? bar.high : p.shields;
+  if (found) plot.line({{from, row}, {to, row}}, {ours, 1.6});
+  if (p.stop > 0)
+    plot.marker({p.stop, row}, Marker::square, other, false, fmt::format("{}: theta_stop = {:.4f}", p.label, p.stop));
+  const bool above = std::isfinite(p.lower);
+  const double at = found ? p.shields : above ? p.lower : p.upper;
+  plot.marker({at, row}, Marker::circle, ours, found,
+              fmt::format("{}: theta_c {} {:.4f}{}", p.label,
+                          found   ? "="
+                          : above ? ">"
+                                  : "<",
+                          at, bounds_of(p)));
+  if (!found) plot.note({at, row}, above ? "   →" : "←   ", ours, above ? "start" : "end");
+}
+
+}   // namespace
+
+std::string side_by_side_figure(const std::vector<ThresholdPoint>& curve) {
+  PlotAxis rows{.label = "", .low = 0, .high = static_cast<double>(curve.size())};
+  for (const ThresholdPoint& p : curve) rows.rows.push_back(p.label);
+  SvgPlot plot(940, 90 + 26.0 * rows.high, axis_of_shields(curve), rows, 210);
+  for (std::size_t n = 0; n < curve.size(); ++n) draw_row(plot, curve[n], rows.high - static_cast<double>(n) - 0.5);
+  plot.legend_marker(std::ranges::any_of(curve, is_screening) ? "θc, screening" : "θc", Marker::circle, ours, true);
+  plot.legend_marker("a bound", Marker::circle, ours, false);
+  plot.legend_marker("θ stop", Marker::square, other, false);
   return plot.svg();
 }
 

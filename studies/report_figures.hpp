@@ -13,6 +13,10 @@ namespace bedload {
 bool is_screening(const ThresholdPoint&);
 /// Table threshold_curve, beside the published curves: theta_c over Re*, logarithmic; open markers with arrows are bounds.
 std::string threshold_figure(const std::vector<ThresholdPoint>&);
+/// Whether one grain in one liquid is looked at in several ways (slopes, meshes, terms): on the curve they lie over each other.
+bool of_one_grain(const std::vector<ThresholdPoint>&);
+/// Those, row by row: theta_c with its bar, theta_stop.
+std::string side_by_side_figure(const std::vector<ThresholdPoint>&);
 
 /// A case whose results are stored.
 struct FinishedCase {

@@ -20,9 +20,9 @@ std::string in_two_digits(double number) {
 
 std::string signed_in_two_digits(double number) { return (number < 0 ? "" : "+") + in_two_digits(number); }
 
-/// "+3.1 %", or "< 4 %" where it is not seen; "-" where it was not measured.
+/// "+3.1 %", or "< 4 %" where it is not seen; "-" where nothing is known.
 std::string difference_in_words(const PairedDifference& d, double unit, std::string_view sign) {
-  if (!std::isfinite(d.mean) || d.uncertainty == 0) return "-";
+  if (!std::isfinite(d.mean) || !std::isfinite(d.uncertainty) || d.uncertainty == 0) return "-";
   const double scale = 1 / unit;
   return (d.seen() ? signed_in_two_digits(scale * d.mean) : "< " + in_two_digits(scale * d.uncertainty)) += sign;
 }

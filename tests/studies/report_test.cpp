@@ -187,6 +187,24 @@ TEST_F(ReportTest, DrawsTheSystematicErrorBesideTheInterval) {
   EXPECT_NEAR(thin_bar().first, 464, 0.06);
 }
 
+/// Slopes, meshes or terms of one grain lie over each other on the curve: they are drawn row by row too.
+TEST_F(ReportTest, DrawsWaysOfLookingAtOneGrainSideBySide) {
+  add_point("slope0", "bracketed", 0.12, 0.1, 0.14);
+  EXPECT_FALSE(of_one_grain(threshold_curve(database_)));
+  add_point("slope8", "bracketed", 0.09, 0.08, 0.1);
+  add_point("slope9", "censored_below", Value{}, Value{}, 0.05);
+  const auto curve = threshold_curve(database_);
+  ASSERT_TRUE(of_one_grain(curve));
+  const std::string figure = side_by_side_figure(curve);
+  for (const auto* set : {"slope0", "slope8", "slope9"})
+    EXPECT_NE(figure.find(std::string(">") + set + "<"), std::string::npos) << figure;
+  EXPECT_NE(figure.find("slope9: theta_c &lt; 0.0500"), std::string::npos) << figure;
+  EXPECT_EQ(occurrences(figure, "<circle"), 5u);   // two of them in the legend
+  EXPECT_EQ(occurrences(figure, "fill='var(--paper)' stroke='var(--blue)'"), 2u) << "one open, one in the legend";
+  database_.execute("UPDATE threshold_curve SET diameter_m = 1e-3 WHERE parameter_set = 'slope9'");
+  EXPECT_FALSE(of_one_grain(threshold_curve(database_)));
+}
+
 TEST_F(ReportTest, SaysARangeOnlyWhereThereIsOne) {
   add_case();
   add_point("a", "bracketed", 0.17, 0.15, 0.18);
