@@ -1,6 +1,8 @@
 // `bedload trade`: runs what a study's [[trade]] asks for, then says what each setting costs and changes.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/commands.hpp"
 #include "base/durable_file.hpp"
 #include "base/error.hpp"
@@ -14,14 +16,20 @@ namespace bedload {
 
 namespace {
 
-/// The cases that a budget allows: the finest setting's, then one setting after the other as the study file has them.
+/// The cases that a budget allows: the finest setting's, then of the others, in the order of the study file, each that still fits with all its
+/// packings.
 std::vector<std::string> within(double core_hours, const std::vector<Case>& cases) {
   std::vector<std::string> ids;
-  double spent = 0;
-  for (const Case& one : cases) {
-    spent += predicted_cost(one.scene).core_seconds / 3600;
-    if (spent > core_hours && !ids.empty()) break;
-    ids.push_back(one.id);
+  double left = core_hours;
+  for (auto first = cases.begin(); first != cases.end();) {
+    const auto end = std::find_if(first, cases.end(), [&](const Case& c) { return c.variation != first->variation; });
+    double hours = 0;
+    for (auto one = first; one != end; ++one) hours += predicted_cost(one->scene).core_seconds / 3600;
+    if (hours <= left || ids.empty()) {
+      left -= hours;
+      for (auto one = first; one != end; ++one) ids.push_back(one->id);
+    }
+    first = end;
   }
   if (ids.size() < cases.size())
     log_note(fmt::format("the budget allows {} of {} cases, by `bedload plan`'s prediction", ids.size(), cases.size()));

@@ -27,7 +27,7 @@ void store_variations(Database&, const std::vector<Case>&);
 /// sources together: three packings say little of it.
 std::vector<BudgetEntry> error_budget(const Database&);
 
-/// Square root of the sum of the squares of all sizes; nan as long as the mesh is not among them.
+/// Square root of the sum of the squares of all differences, or of the bounds of what is not seen; nan as long as the mesh is not among them.
 double systematic_error(const std::vector<BudgetEntry>&);
 
 /// "hold x 3 < 9 %, mesh x 2 +22 %; together 24 % (3 packings of d0.5mm)", or "mesh not tested".

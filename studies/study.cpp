@@ -207,6 +207,7 @@ class Unfolding {
  private:
   void add(const Choice&, const Variation* = nullptr, const std::string& base_id = {});
   void choose_settings(Settings&);
+  Settings base_settings(const Choice&);
   void judge_distance(Case&);
   void add_budget(const std::vector<const Choice*>&);
   void add_trades(const std::vector<const Choice*>&);
@@ -234,18 +235,26 @@ void Unfolding::choose_settings(Settings& settings) {
 
 void Unfolding::judge_distance(Case& one) {
   one.pace = accuracy_->pace;
-  if (const auto why = too_far(*accuracy_, one.scene); !why.empty())
+  auto why = too_far(*accuracy_, one.scene);
+  if (why.empty()) why = of_another_scale(*accuracy_, one.scene);
+  if (!why.empty())
     problems_.add(place_in(study_.settings, "models.accuracy.from"),
                   fmt::format("models.accuracy: {}: {}", one.label, why),
                   "a trade of a scene like this one: bedload trade");
 }
 
+/// Of a case of the axes: what its variations change.
+Settings Unfolding::base_settings(const Choice& choice) {
+  auto settings = settings_of(study_, choice);
+  if (accuracy_) choose_settings(settings);
+  return settings;
+}
+
 /// A case of the axes, or a variation of one.
 void Unfolding::add(const Choice& choice, const Variation* variation, const std::string& base_id) {
-  auto settings = settings_of(study_, choice);
+  auto settings = base_settings(choice);
   if (variation)
     for (const auto& [key, setting] : variation->changes) settings[key] = setting;
-  if (accuracy_) choose_settings(settings);
   auto inputs = resolve(settings, study_.file.parent_path(), problems_, read_table_);
   if (!problems_.empty()) return;
   auto one = make_case(label_of(study_, choice) + (variation ? "-" + variation->name : ""), std::move(inputs));
@@ -267,7 +276,7 @@ void Unfolding::add_budget(const std::vector<const Choice*>& kept) {
   const auto sure = study_.seeds.interval ? std::min(budget_packings, study_.seeds.batch) : budget_packings;
   packings.resize(std::min(packings.size(), static_cast<std::size_t>(sure)));
   for (const std::size_t n : packings)
-    for (const auto& pair : budget_pairs(settings_of(study_, *kept[n]), study_.budget)) {
+    for (const auto& pair : budget_pairs(base_settings(*kept[n]), study_.budget)) {
       if (cases_[n].scene.onset.method != Onset::Method::bisect)
         return problems_.add(place_in(study_.settings, "onset.budget"),
                              "onset.budget: a ramp is a screening and has no error budget",
@@ -278,11 +287,16 @@ void Unfolding::add_budget(const std::vector<const Choice*>& kept) {
 
 /// Every packing, each against itself.
 void Unfolding::add_trades(const std::vector<const Choice*>& packings) {
+  std::set<std::string> names{"finest", "bracket", "hold", "mesh",
+                              "area"};   // of the study itself, and of error budgets
   for (Variation trade : study_.trades) {
     if (trade.name.empty())
       for (const auto& [key, setting] : trade.changes)
         append(trade.name, std::string(find_key(key)->label) + in_label(setting));
     trade.name = fit_for_label(trade.name);
+    if (!names.insert(trade.name).second)
+      problems_.add(trade.changes.begin()->second.place, fmt::format("trade: {} is called so already", trade.name),
+                    "name = \"...\", another for each [[trade]]");
     for (std::size_t n = 0; n < packings.size(); ++n)
       if (problems_.empty()) add(*packings[n], &trade, cases_[n].id);
   }

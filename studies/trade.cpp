@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "solver/scene_numbers.hpp"
 #include "studies/database_values.hpp"
 #include "studies/lone_fall.hpp"
 #include "studies/plan.hpp"
@@ -20,8 +21,6 @@
 namespace bedload {
 
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A stair or a level of a ramp.
 struct Stair {
@@ -64,7 +63,8 @@ std::optional<SingleDifference> theta_difference(const Outcome& finest, const Ou
 std::optional<SingleDifference> flux_difference(const Outcome& finest, const Outcome& other) {
   for (std::size_t k = std::min(finest.stairs.size(), other.stairs.size()); k-- > 0;) {
     const Stair &a = finest.stairs[k], &b = other.stairs[k];
-    if (a.level == b.level && a.flux > 0) return symmetric_difference(a.flux, a.flux_error, b.flux, b.flux_error);
+    if (a.level == b.level && a.flux + b.flux > 0)
+      return symmetric_difference(a.flux, a.flux_error, b.flux, b.flux_error);
   }
   return {};
 }
@@ -93,11 +93,11 @@ const std::vector<NamedMeasure>& measures() {
 using Packings = std::map<std::string, Outcome>;
 
 /// One setting's differences to the finest, packing by packing.
-std::vector<SingleDifference> differences_of(const Packings& setting, const Packings& finest, const Measure& of) {
-  std::vector<SingleDifference> singles;
+Differences differences_of(const Packings& setting, const Packings& finest, const Measure& of) {
+  Differences singles;
   for (const auto& [base, outcome] : setting)
     if (const auto found = finest.find(base); found != finest.end())
-      if (const auto single = of(found->second, outcome)) singles.push_back(*single);
+      if (const auto single = of(found->second, outcome)) singles.push_back({single->difference, single->error, base});
   return singles;
 }
 
@@ -108,33 +108,46 @@ bool on_the_same_beds(const Packings& setting, const Packings& finest) {
   });
 }
 
-/// The deviation from packing to packing is pooled over all settings that begin on the finest's beds; where a setting has beds of its own, over
-/// those too, which scatter more, never less.
+/// The wider of two intervals around the same mean.
+PairedDifference wider(const PairedDifference& a, const PairedDifference& b) {
+  return a.known() && b.known() && a.high > b.high ? a : b;
+}
+
+/// How far packings scatter is taken from all settings that begin on the finest's beds; where a setting has beds of its own, from those that
+/// have, but never as less: other beds scatter more.
 void compare(const std::vector<Packings>& outcomes, std::vector<TradeSetting>& settings) {
   const Packings& finest = outcomes.front();
   for (const auto& [member, of] : measures()) {
-    Differences all, same_beds, other_beds;
+    std::vector<Differences> all, same_beds, other_beds;
     for (std::size_t n = 1; n < settings.size(); ++n) {
       all.push_back(differences_of(outcomes[n], finest, of));
       (on_the_same_beds(outcomes[n], finest) ? same_beds : other_beds).push_back(all.back());
     }
-    const double same = pooled_deviation(same_beds), other = std::max(same, pooled_deviation(other_beds));
-    for (std::size_t n = 1; n < settings.size(); ++n)
-      settings[n].*member = paired(all[n - 1], on_the_same_beds(outcomes[n], finest) ? same : other);
+    const Scatter same = scatter_of(same_beds), other = scatter_of(other_beds);
+    for (std::size_t n = 1; n < settings.size(); ++n) {
+      const auto by_same = paired(all[n - 1], same), by_other = paired(all[n - 1], other);
+      settings[n].*member = on_the_same_beds(outcomes[n], finest) || !by_other.known() ? by_same
+                            : by_same.known()                                          ? wider(by_same, by_other)
+                                                                                       : by_other;
+    }
   }
   for (TradeSetting& setting : settings)
     setting.theta = relative(setting.theta), setting.flux = relative_of_symmetric(setting.flux);
 }
 
+/// Among settings that have a theta_c in every packing: one that failed in some is good for nothing.
 void mark_frontier(std::vector<TradeSetting>& settings) {
   const auto beats = [](const TradeSetting& a, const TradeSetting& b) {
-    return a.core_seconds <= b.core_seconds && a.theta.size() <= b.theta.size() &&
-           (a.core_seconds < b.core_seconds || a.theta.size() < b.theta.size());
+    return a.core_seconds <= b.core_seconds && a.theta.worst() <= b.theta.worst() &&
+           (a.core_seconds < b.core_seconds || a.theta.worst() < b.theta.worst());
+  };
+  const auto whole = [&](const TradeSetting& one) {
+    return one.thresholds == settings.front().packings && std::isfinite(one.theta.worst());
   };
   for (TradeSetting& one : settings)
-    one.frontier = one.packings > 0 && std::isfinite(one.theta.size()) &&
-                   std::ranges::none_of(
-                       settings, [&](const TradeSetting& other) { return other.packings > 0 && beats(other, one); });
+    one.frontier = whole(one) && std::ranges::none_of(settings, [&](const TradeSetting& other) {
+                     return whole(other) && beats(other, one);
+                   });
 }
 
 /// The value that a key has in the study itself.
@@ -151,7 +164,7 @@ void add_case(const Database& database, const Case& one, Packings& packings, Tra
   outcome->bed_id = one.bed_id;
   packings[one.base_id.empty() ? one.id : one.base_id] = *outcome;
   if (setting.packings == 0) setting.fall_speed = lone_fall_speed(one.scene);
-  ++setting.packings;
+  ++setting.packings, setting.thresholds += std::isfinite(outcome->shields);
   setting.core_seconds += outcome->core_seconds;
   setting.predicted_seconds += predicted_cost(one.scene).core_seconds;
 }
@@ -188,8 +201,13 @@ Trade measured_trade(const Database& database, const Study& study, const std::ve
   }
   compare(outcomes, trade.settings);
   mark_frontier(trade.settings);
-  for (const ThresholdPoint& point : threshold_curve(database))
-    trade.galileo = point.galileo, trade.density_ratio = point.density_ratio, trade.shields = point.shields;
+  for (const ThresholdPoint& point : threshold_curve(database)) {
+    trade.galileo = point.galileo, trade.density_ratio = point.density_ratio, trade.diameter = point.diameter;
+    trade.shields = std::isfinite(point.shields) ? point.shields
+                    : std::isfinite(point.lower) ? point.lower
+                                                 : point.upper;
+  }
+  trade.grain_time = numbers_of(cases.front().scene).grain_time;
   return trade;
 }
 

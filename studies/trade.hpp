@@ -10,11 +10,15 @@
 
 namespace bedload {
 
+/// Of trade.json. 2: bounds of the differences, thresholds, grain time of the scene (1 had half widths).
+constexpr int trade_format = 2;
+
 /// A setting beside the finest one.
 struct TradeSetting {
   std::string name;               // "finest", or what is changed
   Settings changes;               // by key
-  std::size_t packings = 0;       // with results of both
+  std::size_t packings = 0;       // with results
+  std::size_t thresholds = 0;     // of them with a theta_c that is no bound
   PairedDifference theta;         // of theta_c, relative [-]
   PairedDifference flux;          // of the flux at the highest stair that both have climbed, relative [-]
   PairedDifference height;        // of the bed's surface at the end of the first stair [d]
@@ -27,9 +31,11 @@ struct TradeSetting {
 
 struct Trade {
   std::string study;
-  double galileo = 0, density_ratio = 0, shields = 0;   // of the scene: theta_50 of its finest setting [-]
-  Settings finest;                                      // values of all keys that are changed anywhere
-  std::vector<TradeSetting> settings;                   // the finest first, then in the order of the study file
+  double galileo = 0, density_ratio = 0,
+         shields = 0;                    // of the scene: theta_50 of its finest setting, or the bound that there is [-]
+  double diameter = 0, grain_time = 0;   // [m], [s]
+  Settings finest;                       // values of all keys that are changed anywhere
+  std::vector<TradeSetting> settings;    // the finest first, then in the order of the study file
 };
 
 /// Throws Error study_invalid for a study without [[trade]].

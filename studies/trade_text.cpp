@@ -20,11 +20,13 @@ std::string in_two_digits(double number) {
 
 std::string signed_in_two_digits(double number) { return (number < 0 ? "" : "+") + in_two_digits(number); }
 
-/// "+3.1 %", or "< 4 %" where it is not seen; "-" where nothing is known.
+/// "+3.1 %", or "< 4 %" where it is not seen; in brackets where it may be anything; "-" where it was not measured.
 std::string difference_in_words(const PairedDifference& d, double unit, std::string_view sign) {
-  if (!std::isfinite(d.mean) || !std::isfinite(d.uncertainty) || d.uncertainty == 0) return "-";
+  if (!std::isfinite(d.mean)) return "-";
   const double scale = 1 / unit;
-  return (d.seen() ? signed_in_two_digits(scale * d.mean) : "< " + in_two_digits(scale * d.uncertainty)) += sign;
+  if (d.mean == 0 && d.worst() == 0) return "0";
+  if (!d.seen() && !std::isfinite(d.worst())) return fmt::format("({}{})", signed_in_two_digits(scale * d.mean), sign);
+  return (d.seen() ? signed_in_two_digits(scale * d.mean) : "< " + in_two_digits(scale * d.worst())) += sign;
 }
 
 /// Of a fall, which no packing scatters.
@@ -43,7 +45,7 @@ std::vector<const TradeSetting*> cheapest_first(const Trade& trade) {
 }
 
 nlohmann::ordered_json as_json(const PairedDifference& d) {
-  return {{"difference", d.mean}, {"uncertainty", d.uncertainty}, {"seen", d.seen()}};
+  return {{"difference", d.mean}, {"low", d.low}, {"high", d.high}, {"seen", d.seen()}};
 }
 
 nlohmann::ordered_json as_json(const Settings& settings) {
@@ -62,18 +64,23 @@ std::string trade_as_table(const Trade& trade) {
   const double finest = trade.settings.front().core_seconds;
   for (const TradeSetting* one : cheapest_first(trade)) {
     if (one->packings == 0) {
-      text += fmt::format("  {:<{}} not run yet\n", one->name, width);
+      text += fmt::format("  {:<{}} no result\n", one->name, width);
       continue;
     }
-    text += fmt::format("{} {:<{}} {:>8} {:>10.3g} {:>7.0f}% {:>9} {:>9} {:>9} {:>9} {:>9}\n",
-                        one->frontier ? '*' : ' ', one->name, width, one->packings, one->core_seconds,
-                        100 * one->core_seconds / finest, difference_in_words(one->theta, 0.01, "%"),
-                        difference_in_words(one->flux, 0.01, "%"), difference_in_words(one->height, 1, ""),
-                        difference_in_words(one->porosity, 1, ""), fall_in_words(*one, trade.settings.front()));
+    const auto words = [&](const PairedDifference& d, double unit, std::string_view sign) {
+      return one == &trade.settings.front() ? "-" : difference_in_words(d, unit, sign);
+    };
+    text +=
+        fmt::format("{} {:<{}} {:>8} {:>10} {:>7.0f}% {:>9} {:>9} {:>9} {:>9} {:>9}\n", one->frontier ? '*' : ' ',
+                    one->name, width, one->packings, in_two_digits(one->core_seconds), 100 * one->core_seconds / finest,
+                    words(one->theta, 0.01, "%"), words(one->flux, 0.01, "%"), words(one->height, 1, ""),
+                    words(one->porosity, 1, ""), fall_in_words(*one, trade.settings.front()));
   }
   return text + fmt::format(
-                    "differences to the finest setting, same beds, mean over the packings; < : not seen, two standard "
-                    "errors; fall: speed of a lone grain in the same box without bed\n* no other setting is as cheap "
+                    "differences to the finest setting, same beds, mean over the packings; < : not seen, may be as "
+                    "much (95 %);\n"
+                    "in brackets: how far it scatters is not known; fall: speed of a lone grain in the same box "
+                    "without bed\n* no other setting is as cheap "
                     "and as good in theta_c. core s: of one packing\n"
                     "scene: Ga = {:.3g}, s = {:.3g}, theta_50 = {:.4f}\n",
                     trade.galileo, trade.density_ratio, trade.shields);
@@ -85,6 +92,7 @@ std::string trade_as_json(const Trade& trade) {
     settings.push_back({{"name", one.name},
                         {"changes", as_json(one.changes)},
                         {"packings", one.packings},
+                        {"thresholds", one.thresholds},
                         {"core_seconds", one.core_seconds},
                         {"predicted_seconds", one.predicted_seconds},
                         {"frontier", one.frontier},
@@ -93,12 +101,16 @@ std::string trade_as_json(const Trade& trade) {
                         {"flux", as_json(one.flux)},
                         {"height_d", as_json(one.height)},
                         {"porosity", as_json(one.porosity)}});
-  const nlohmann::ordered_json json = {
-      {"format", 1},
-      {"study", trade.study},
-      {"scene", {{"galileo", trade.galileo}, {"density_ratio", trade.density_ratio}, {"shields", trade.shields}}},
-      {"finest", as_json(trade.finest)},
-      {"settings", settings}};
+  const nlohmann::ordered_json json = {{"format", trade_format},
+                                       {"study", trade.study},
+                                       {"scene",
+                                        {{"galileo", trade.galileo},
+                                         {"density_ratio", trade.density_ratio},
+                                         {"shields", trade.shields},
+                                         {"diameter_m", trade.diameter},
+                                         {"grain_time_s", trade.grain_time}}},
+                                       {"finest", as_json(trade.finest)},
+                                       {"settings", settings}};
   return json.dump(2) + "\n";
 }
 
@@ -106,14 +118,16 @@ namespace {
 
 std::vector<const TradeSetting*> measured_cheapest_first(const Trade& trade) {
   std::vector<const TradeSetting*> all = cheapest_first(trade);
-  std::erase_if(all, [](const auto* one) { return one->packings == 0 || !std::isfinite(one->theta.size()); });
+  std::erase_if(all, [](const auto* one) {
+    return one->packings == 0 || !(one->theta.seen() || std::isfinite(one->theta.worst()));
+  });
   return all;
 }
 
 double highest_bar(const std::vector<const TradeSetting*>& settings) {
   double highest = 0.02;
   for (const TradeSetting* one : settings)
-    highest = std::max(highest, one->theta.size() + (one->theta.seen() ? one->theta.uncertainty : 0));
+    if (std::isfinite(one->theta.worst())) highest = std::max(highest, one->theta.worst());
   return highest;
 }
 
@@ -151,8 +165,11 @@ std::string trade_figure(const Trade& trade) {
     const std::string_view colour = one.frontier ? "#1f6feb" : "#8a8a8a";
     const std::string difference = finest ? "" : difference_in_words(one.theta, 0.01, "%"),
                       number = std::to_string(n + 1);
-    const double cost = one.core_seconds, error = 100 * one.theta.size(), bar = 100 * one.theta.uncertainty;
-    if (one.theta.seen()) plot.vertical_bar(cost, std::max(0.0, error - bar), error + bar, colour);
+    const double cost = one.core_seconds,
+                 error = 100 * (one.theta.seen() ? std::abs(one.theta.mean) : one.theta.worst());
+    if (one.theta.seen())
+      plot.vertical_bar(cost, 100 * std::min(std::abs(one.theta.low), std::abs(one.theta.high)),
+                        100 * one.theta.worst(), colour);
     plot.marker({cost, error}, Marker::circle, colour, filled,
                 fmt::format("{} {}: {} at {:.3g} core s", number, one.name, difference, cost));
     const double up = places.above(std::log(cost / low) / std::log(high / low), error / top);

@@ -48,12 +48,18 @@ std::optional<Setting> times(const Settings& settings, const Change& change) {
   return setting;
 }
 
+bool bed_from_a_table(const Settings& settings) {
+  const auto source = settings.find("bed.source");
+  return source != settings.end() && source->second.text == "file";
+}
+
 }   // namespace
 
 std::vector<Variation> budget_pairs(const Settings& settings, const std::vector<std::string>& wanted) {
   std::vector<Variation> made;
   for (const Pair& pair : pairs()) {
     if (std::ranges::find(wanted, pair.name) == wanted.end()) continue;
+    if (pair.name == "area" && bed_from_a_table(settings)) continue;   // there are no more grains than those
     Variation variation{std::string(pair.name), {}};
     for (const Change& change : pair.changes)
       if (auto setting = times(settings, change)) variation.changes[std::string(change.key)] = std::move(*setting);

@@ -15,13 +15,15 @@ namespace {
 std::string one_scene() {
   auto text = with(tiny_study, "diameter = [\"0.5 mm\", \"0.6 mm\"]", "diameter = \"0.5 mm\"");
   text = with(text, "density = [\"2000 kg/m3\", \"3000 kg/m3\"]", "density = \"2000 kg/m3\"");
+  text = with(text, "from = 0.1, ratio = 1.5, steps = 4", "from = 0.05, ratio = 1.5, steps = 6");
   return with(text, "dwell = \"5 td\"", "");
 }
 
 TEST(Trade, MeasuresWhatAnotherStudyThenFollows) {
   TemporaryDirectory here;
   std::ofstream(here.path() / "trade.toml")
-      << with(with(one_scene(), "\"tiny\"", "\"trade\""), "[drive]", "[drive]\ndwell = \"5 td\"")
+      << with(with(with(one_scene(), "\"tiny\"", "\"trade\""), "[drive]", "[drive]\ndwell = \"5 td\""), "[bed]",
+              "[bed]\nseed = { count = 4 }")
       << "[[trade]]\nname = \"short\"\ndrive.dwell = \"2 td\"\n";
   const auto made = bedload(here.path(), {"trade", "trade.toml", "--cores", "2"});
   ASSERT_EQ(made.code, 0) << made.err;
@@ -33,10 +35,10 @@ TEST(Trade, MeasuresWhatAnotherStudyThenFollows) {
   EXPECT_TRUE(read_text(here.path() / "trade" / "trade.svg").starts_with("<svg xmlns="));
 
   std::ofstream(here.path() / "tiny.toml") << with(
-      one_scene(), "[drive]", "[models]\naccuracy = { target = \"90 %\", from = \"trade/trade.json\" }\n\n[drive]");
+      one_scene(), "[drive]", "[models]\naccuracy = { target = \"500 %\", from = \"trade/trade.json\" }\n\n[drive]");
   const auto plan = bedload(here.path(), {"plan", "tiny.toml"});
   EXPECT_EQ(plan.code, 0) << plan.err;
-  EXPECT_NE(plan.out.find("accuracy 90 %: setting short of trade/trade.json"), std::string::npos) << plan.out;
+  EXPECT_NE(plan.out.find("accuracy 500 %: setting short of trade/trade.json"), std::string::npos) << plan.out;
   EXPECT_EQ(bedload(here.path(), {"run", "tiny.toml", "--prepare"}).code, 0);
   EXPECT_EQ(bedload(here.path(), {"plan", "tiny"}).code, 0) << "the result directory stands by itself";
 }

@@ -125,17 +125,17 @@ TEST_F(BudgetOfResults, IsTheDifferencesOfThePairsOrWhatTheyWouldHaveToExceed) {
   finish(cases.front(), 0.100, 0.104);
   finish(named("mesh"), 0.120, 0.1248);
   finish(named("hold"), 0.101, 0.10504);
-  const double two_deviations = 2 * std::log(1.04) / (2 * std::sqrt(3.0)) * std::sqrt(2.0);
+  const double two_deviations = 2 * std::log(1.04) / (2 * std::sqrt(3.0)) * std::sqrt(2.0);   // of both ends
   const auto budget = error_budget(database);
   ASSERT_EQ(budget.size(), 2u);
   EXPECT_EQ(budget[0].source, "hold");
   EXPECT_NEAR(budget[0].theta.mean, 0.01, 1e-12);
-  EXPECT_NEAR(budget[0].theta.uncertainty, 1.01 * two_deviations, 1e-12);
+  EXPECT_NEAR(budget[0].theta.high, 1.01 * std::exp(two_deviations) - 1, 1e-12);
   EXPECT_EQ(budget[1].source, "mesh");
   EXPECT_NEAR(budget[1].theta.mean, 0.2, 1e-12);
-  EXPECT_NEAR(only_point().systematic, std::hypot(0.2, budget[0].theta.uncertainty), 1e-12);
+  EXPECT_NEAR(only_point().systematic, std::hypot(0.2, budget[0].theta.worst()), 1e-12);
   EXPECT_EQ(budget_in_words(budget),
-            "hold x 3 < 3.2 %, mesh x 2 +20 %; together 20 % (1 packing of d0.5mm-rho2000: how far it scatters is not "
+            "hold x 3 < 4.3 %, mesh x 2 +20 %; together 20 % (1 packing of d0.5mm-rho2000: how far it scatters is not "
             "known)");
 }
 
@@ -152,13 +152,14 @@ TEST_F(BudgetOfResults, KnowsNoDifferenceBetterThanThePackingsAgreeOnIt) {
   for (const double seed : {1.0, 2.0}) finish(of_seed("", seed), 0.100, 0.104);
   finish(of_seed("mesh", 1), 0.120, 0.1248), finish(of_seed("mesh", 2), 0.100 / 1.2, 0.104 / 1.2);
   finish(of_seed("hold", 1), 0.110, 0.1144);
-  const double bracket = std::log(1.04) / std::sqrt(6.0), scatter = std::log(1.2) * std::sqrt(2.0);
   const auto budget = error_budget(database);
   ASSERT_EQ(budget.size(), 2u);
   EXPECT_EQ(budget[1].packings, 2u);
   EXPECT_NEAR(budget[1].theta.mean, 0, 1e-12);
-  EXPECT_NEAR(budget[1].theta.uncertainty, 2 * std::hypot(bracket, scatter) / std::sqrt(2.0), 1e-12);
-  EXPECT_NEAR(budget[0].theta.uncertainty, 1.1 * 2 * std::hypot(bracket, scatter), 1e-12);
+  // differences of +-ln 1.2: of one side half their variance, 2 (ln 1.2)^2, with one degree of freedom
+  const double deviation = std::log(1.2), t = 12.706;
+  EXPECT_NEAR(budget[1].theta.high, std::exp(t * deviation) - 1, 1e-9);
+  EXPECT_NEAR(budget[0].theta.high, 1.1 * std::exp(t * deviation * std::sqrt(2.0)) - 1, 1e-9);
   EXPECT_FALSE(budget[0].theta.seen());
   EXPECT_TRUE(says(budget_in_words(budget), "(2 packings of d0.5mm-rho2000)"));
 }
