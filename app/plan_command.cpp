@@ -166,13 +166,25 @@ void add_scene(nlohmann::ordered_json& object, const Scene& scene) {
   object["warnings"] = warnings_of(scene);
 }
 
-void print_plan_as_json(const Plan& plan) {
+std::optional<AccuracyChoice> accuracy_of(const Study& study) {
+  Problems none(study.file.string());   // what is wrong with it has been said
+  return chosen_accuracy(study, read_text, none);
+}
+
+void print_plan_as_json(const Study& study, const Plan& plan) {
+  const auto accuracy = accuracy_of(study);
   auto cases = nlohmann::ordered_json::parse(printed(case_rows(plan), Form::json));
   for (std::size_t n = 0; n < plan.cases.size(); ++n) {
     const auto& bed = plan.cases[n].one.scene.bed;
     cases[n]["diameter_m"] = bed.grains.diameter;
     cases[n]["grain_density_kg_per_m3"] = bed.grains.density;
     cases[n]["viscosity_m2_per_s"] = bed.fluid.viscosity;
+    if (accuracy)
+      cases[n]["accuracy"] = {{"target", accuracy->target},
+                              {"setting", accuracy->setting},
+                              {"error", accuracy->error},
+                              {"cost", accuracy->cost},
+                              {"from", accuracy->from}};
     add_scene(cases[n], plan.cases[n].one.scene);
   }
   fmt::print("{}\n", cases.dump(2));
@@ -199,8 +211,7 @@ void print_summary(const Study& study, const Plan& plan, const fs::path& results
       duration_text(core_seconds /
                     std::max<double>(1, std::min<double>(cores, static_cast<double>(plan.cases.size())))),
       counted(cores, "core"), bytes / 1e6);
-  Problems none(study.file.string());
-  if (const auto chosen = chosen_accuracy(study, read_text, none)) fmt::print("{}\n\n", wrapped(chosen->in_words(), 0));
+  if (const auto chosen = accuracy_of(study)) fmt::print("{}\n\n", wrapped(chosen->in_words(), 0));
 }
 
 /// The case in the study file as it stands, or one that left it.
@@ -252,7 +263,7 @@ int plan_command(const StudyOptions& options) {
   const auto place = find_study(options.study, options.out);
   const auto study = read_study(place.file);
   const auto plan = make_plan(unfold(study), known_cases(place.directory), place.directory);
-  if (options.form == Form::json) return print_plan_as_json(plan), 0;
+  if (options.form == Form::json) return print_plan_as_json(study, plan), 0;
   if (options.form == Form::csv) return fmt::print("{}", printed(case_rows(plan), Form::csv)), 0;
   const int cores =
       study.run.cores > 0 ? study.run.cores : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));

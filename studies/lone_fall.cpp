@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "base/error.hpp"
+#include "base/log.hpp"
 #include "solver/coupling/drag_laws.hpp"
 #include "solver/experiment.hpp"
 
@@ -60,11 +62,16 @@ double lone_fall_speed(const Scene& scene) {
   if (!(free > 0)) return unknown;
   const double longest = 10 * scene.bed.length.z / free;
   double sum = 0;
-  for (const double i : {0.0, 0.5})
-    for (const double j : {0.0, 0.5})
-      sum += fall_speed(one_grain(scene, 0.5 * scene.bed.length.x + i * scene.grid.h.x,
-                                  0.5 * scene.bed.length.y + j * scene.grid.h.y),
-                        longest);
+  try {
+    for (const double i : {0.0, 0.5})
+      for (const double j : {0.0, 0.5})
+        sum += fall_speed(one_grain(scene, 0.5 * scene.bed.length.x + i * scene.grid.h.x,
+                                    0.5 * scene.bed.length.y + j * scene.grid.h.y),
+                          longest);
+  } catch (const Error& error) {
+    log_note(fmt::format("a lone grain cannot fall through this box: {}", error.what()));
+    return unknown;
+  }
   return sum / 4;
 }
 
