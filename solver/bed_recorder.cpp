@@ -194,7 +194,7 @@ double BedRecorder::lid_shields(const Search& search, const Window& window) cons
 double BedRecorder::momentum_residual(const Grains& grains, const Window& window, const StreamwiseMomentum& now) const {
   const auto& fixed = grains.fixed;
   const bool seen = scene_.fluid != FluidRung::profile && scene_.grid.periodic(0) && scene_.grid.periodic(1) &&
-                    std::ranges::all_of(fixed, [](std::uint8_t f) { return f == 0; });
+                    scene_.frozen_depth == 0 && std::ranges::all_of(fixed, [](std::uint8_t f) { return f == 0; });
   if (!seen || stress_scale_ <= 0) return not_known;
   return std::abs(now.total - window.momentum - window.outer_impulse) / (window.duration * area_ * stress_scale_);
 }
@@ -208,7 +208,9 @@ void append_bed(const Scene& scene, const State& state, Rows& rows) {
   rows.bed_height.push_back(surface.height);
   rows.moved_grains.push_back(double(count_moved(state.grains)));
   rows.roughness.push_back(surface.roughness);
-  const ContactHistory contacts = all_contacts(state.contacts, state.asleep);
+  const bool whole = state.asleep.size() == 0;
+  const ContactHistory joined = whole ? ContactHistory{} : all_contacts(state.contacts, state.asleep);
+  const ContactHistory& contacts = whole ? state.contacts : joined;
   rows.coordination.push_back(coordination(contacts, state.grains.size()));
   if constexpr (requires { rows.porosity; }) {
     rows.porosity.push_back(surface.porosity);

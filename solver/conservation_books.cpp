@@ -1,5 +1,6 @@
 // Volume, momentum and energy of fluid and grains, before and after each step.
 #include "solver/conservation_books.hpp"
+#include "solver/bed/frozen_grains.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,7 @@ class ContactEnergy {
   explicit ContactEnergy(const BedScene& bed) : box_(bed), walls_(walls_of(bed)), law_(bed.grains) {}
 
   double operator()(const State& state) const {
-    const ContactHistory& contacts = state.contacts;
+    const ContactHistory contacts = all_contacts(state.contacts, state.asleep);
     double sum = 0;
     for (std::size_t n = 0; n < contacts.size(); ++n) {
       const Overlap o = overlap(state.grains, contacts.lower[n], contacts.higher[n]);

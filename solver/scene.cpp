@@ -217,7 +217,13 @@ void check_frozen(const Scene& scene, Found& found) {
   if (scene.frozen_depth == 0) return;
   if (!needs_settling(scene.bed))
     found.push_back({"models.frozen_depth", "only a bed that lies on a bottom has a surface to be deep below",
-                     "bed.source = \"poured\", or leave frozen_depth out"});
+                     "a poured bed or a lattice on a bottom, or leave frozen_depth out"});
+  if (scene.frozen_depth < largest_diameter(scene.bed))
+    found.push_back(
+        {"models.frozen_depth",
+         fmt::format("{:.3g} m is less than the largest grain, {:.3g} m: the surface itself would be frozen",
+                     scene.frozen_depth, largest_diameter(scene.bed)),
+         "\"3 d\", or 0 to move all grains"});
 }
 
 void check_crowded(const Scene& scene, Found& found) {

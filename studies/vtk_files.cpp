@@ -9,6 +9,7 @@
 #include <span>
 
 #include "checkpoint/hdf5_file.hpp"
+#include "solver/bed/frozen_grains.hpp"
 #include "solver/coupling/void_fraction.hpp"
 #include "solver/fluid/boundaries.hpp"
 
@@ -68,10 +69,11 @@ Field<Centre> void_fraction(const Scene& scene, const Grains& grains) {
 }
 
 std::vector<Whole> contacts_of(const State& state) {
+  const ContactHistory contacts = all_contacts(state.contacts, state.asleep);
   std::vector<Whole> touching(state.grains.size(), 0);
-  for (std::size_t n = 0; n < state.contacts.size(); ++n) {
-    ++touching[state.contacts.lower[n]];
-    if (state.contacts.higher[n] < touching.size()) ++touching[state.contacts.higher[n]];   // else a wall
+  for (std::size_t n = 0; n < contacts.size(); ++n) {
+    ++touching[contacts.lower[n]];
+    if (contacts.higher[n] < touching.size()) ++touching[contacts.higher[n]];   // else a wall
   }
   return touching;
 }

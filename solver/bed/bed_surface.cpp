@@ -54,13 +54,14 @@ double highest_crossing(const std::vector<double>& phi, double half) {
 
 long columns_along(double edge, double diameter) { return std::max(1L, std::lround(2 * edge / diameter)); }
 
-/// Elevation of the highest grain surface above the middle of every column of about (d/2)^2; the bottom where there is none.
-std::vector<double> elevations(const Grains& grains, Vec3 length, double diameter) {
-  const long nx = columns_along(length.x, diameter), ny = columns_along(length.y, diameter);
-  const double hx = length.x / static_cast<double>(nx), hy = length.y / static_cast<double>(ny);
-  const auto wrapped = [](long i, long n) { return ((i % n) + n) % n; };
-  std::vector<double> top(static_cast<std::size_t>(nx * ny));
+}   // namespace
+
+Elevations elevations(const Grains& grains, Vec3 length, double diameter, double slow) {
+  Elevations top{columns_along(length.x, diameter), columns_along(length.y, diameter), {}};
+  top.heights.resize(static_cast<std::size_t>(top.nx * top.ny));
+  const double hx = length.x / static_cast<double>(top.nx), hy = length.y / static_cast<double>(top.ny);
   for (std::size_t p = 0; p < grains.size(); ++p) {
+    if (norm2(grains.velocity[p]) > slow * slow) continue;
     const double radius = grains.diameter[p] / 2;
     const Vec3 at = grains.position[p];
     for (long i = std::lround((at.x - radius) / hx); (static_cast<double>(i) + 0.5) * hx < at.x + radius; ++i)
@@ -68,12 +69,14 @@ std::vector<double> elevations(const Grains& grains, Vec3 length, double diamete
         const double x = (static_cast<double>(i) + 0.5) * hx - at.x, y = (static_cast<double>(j) + 0.5) * hy - at.y;
         const double rise = radius * radius - x * x - y * y;
         if (rise < 0) continue;
-        double& column = top[static_cast<std::size_t>(wrapped(i, nx) * ny + wrapped(j, ny))];
+        double& column = top.at(i, j);
         column = std::max(column, at.z + std::sqrt(rise));
       }
   }
   return top;
 }
+
+namespace {
 
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -105,7 +108,7 @@ BedSurface bed_surface(const Grains& grains, Vec3 length, double diameter) {
   const double bulk = bulk_fraction(phi);
   constexpr double loosest_bed = 0.1;
   if (bulk < loosest_bed) return {};
-  const std::vector<double> top = elevations(grains, length, diameter);
+  const std::vector<double> top = elevations(grains, length, diameter).heights;
   return {.height = highest_crossing(phi, bulk / 2) * length.z / static_cast<double>(bins),
           .top = mean_of(top),
           .slope = slope_of(top, length.x, diameter),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "base/vec3.hpp"
@@ -22,6 +23,26 @@ struct BedSurface {
   double roughness = 0;   // standard deviation of the surface's elevation over columns of (d/2)^2 [m]
   double porosity = 1;    // of the bulk: the layers that hold the middle half of the solid volume [-]
 };
+
+/// Elevation of the highest grain surface above the middle of every column of about (d/2)^2 [m]; the bottom, 0, where there is none.
+struct Elevations {
+  long nx = 0, ny = 0;
+  std::vector<double> heights;   // of column (i, j) at i ny + j
+
+  /// Beyond an end the columns begin anew at the other.
+  double& at(long i, long j) { return heights[index(i, j)]; }
+  double at(long i, long j) const { return heights[index(i, j)]; }
+
+ private:
+  std::size_t index(long i, long j) const {
+    const auto wrapped = [](long k, long n) { return ((k % n) + n) % n; };
+    return static_cast<std::size_t>(wrapped(i, nx) * ny + wrapped(j, ny));
+  }
+};
+
+/// Of grains of mean diameter d [m] that are slower than `slow` [m/s].
+Elevations elevations(const Grains&, Vec3 length, double diameter,
+                      double slow = std::numeric_limits<double>::infinity());
 
 /// Surface of a bed of grains of mean diameter d [m]; layers of d/10. Layers looser than phi = 0.1 are no bed.
 BedSurface bed_surface(const Grains&, Vec3 length, double diameter);

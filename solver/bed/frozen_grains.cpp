@@ -2,51 +2,49 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
+
+#include "solver/bed/bed_surface.hpp"
 
 namespace bedload {
 
 namespace {
 
-/// The bed's surface over columns about two diameters wide.
-class LocalSurface {
- public:
-  LocalSurface(const BedScene& scene, const Grains& grains, double slow)
-      : scene_(scene), columns_{across(0), across(1)}, top_(std::size_t(columns_[0]) * std::size_t(columns_[1]), 0.0) {
-    for (std::size_t i = 0; i < grains.size(); ++i) {
-      if (norm2(grains.velocity[i]) > slow * slow) continue;
-      double& top = top_[index(along(grains.position[i], 0), along(grains.position[i], 1))];
-      top = std::max(top, grains.position[i].z + 0.5 * grains.diameter[i]);
-    }
-  }
+constexpr double
+    pore = 0.5,
+    reach = 2.5;   // d: what is narrower than three times the first is no hole; one is seen from so far beside it
 
-  /// The lowest top around a place [m].
-  double lowest_around(Vec3 place) const {
-    double lowest = std::numeric_limits<double>::infinity();
-    for (int i = -1; i <= 1; ++i)
-      for (int j = -1; j <= 1; ++j)
-        lowest = std::min(lowest, top_[index(beside(along(place, 0), i, 0), beside(along(place, 1), j, 1))]);
-    return lowest;
+/// For each column of `top` what `pick` takes of all within `far` [m] along x and y.
+template <class Pick>
+void spread(Elevations& top, Vec3 length, double far, Pick&& pick) {
+  for (const bool along_x : {true, false}) {
+    const double width = along_x ? length.x / static_cast<double>(top.nx) : length.y / static_cast<double>(top.ny);
+    const long columns = std::lround(far / width);
+    const Elevations before = top;
+    for (long i = 0; i < top.nx; ++i)
+      for (long j = 0; j < top.ny; ++j)
+        for (long k = -columns; k <= columns; ++k)
+          top.at(i, j) = pick(top.at(i, j), along_x ? before.at(i + k, j) : before.at(i, j + k));
   }
+}
 
- private:
-  int across(int c) const { return std::max(1, static_cast<int>(scene_.length[c] / (2 * scene_.grains.diameter))); }
-  int along(Vec3 place, int c) const {
-    return std::clamp(static_cast<int>(place[c] / scene_.length[c] * columns_[c]), 0, columns_[c] - 1);
-  }
-  int beside(int column, int step, int c) const {
-    const int next = column + step;
-    return scene_.sides[c] == Side::periodic ? (next + columns_[c]) % columns_[c]
-                                             : std::clamp(next, 0, columns_[c] - 1);
-  }
-  std::size_t index(int i, int j) const { return std::size_t(i) * std::size_t(columns_[1]) + std::size_t(j); }
+/// The bed's surface without its pores, and the lowest of that around each column. Beyond a wall it looks at the other end of the box, which
+/// may wake what need not be and buries nothing.
+Elevations local_surface(const BedScene& scene, const Grains& grains, double slow) {
+  const double d = scene.grains.diameter;
+  Elevations top = elevations(grains, scene.length, d, slow);
+  spread(top, scene.length, pore * d, [](double a, double b) { return std::max(a, b); });
+  spread(top, scene.length, reach * d, [](double a, double b) { return std::min(a, b); });
+  return top;
+}
 
-  const BedScene& scene_;
-  int columns_[2];
-  std::vector<double> top_;
-};
+double height_at(const Elevations& surface, Vec3 length, Vec3 place) {
+  const auto column = [](double x, double edge, long n) {
+    return std::clamp(static_cast<long>(x / edge * static_cast<double>(n)), 0L, n - 1);
+  };
+  return surface.at(column(place.x, length.x, surface.nx), column(place.y, length.y, surface.ny));
+}
 
 }   // namespace
 
@@ -83,9 +81,11 @@ void thaw(Grains& grains, ContactHistory& contacts, ContactHistory& asleep) {
 void freeze_deep_grains(const BedScene& scene, double depth, double slow, Grains& grains, ContactHistory& contacts,
                         ContactHistory& asleep) {
   thaw(grains, contacts, asleep);
-  const LocalSurface surface(scene, grains, slow);
+  const Elevations surface = local_surface(scene, grains, slow);
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    if (grains.fixed[i] || grains.position[i].z > surface.lowest_around(grains.position[i]) - depth) continue;
+    const bool moves = norm2(grains.velocity[i]) > slow * slow;
+    const Vec3 place = grains.position[i];
+    if (grains.fixed[i] || moves || place.z > height_at(surface, scene.length, place) - depth) continue;
     grains.fixed[i] = frozen;
     grains.velocity[i] = grains.spin[i] = {};
   }

@@ -9,14 +9,11 @@
 
 namespace bedload {
 
-/// In Grains::fixed: for now; 1 is for ever.
-constexpr std::uint8_t frozen = 2;
-
-/// Freezes every grain whose centre lies deeper than `depth` [m] below the bed's local surface, and wakes all others. The local surface is
-/// the lowest of the tops of the column around the grain and the eight beside it, about two diameters wide, a top being that of
-/// the highest grain slower than `slow` [m/s]: so that a hole is seen from below before it is there, and a grain that flies past
-/// buries none. What two grains at rest remember of each other moves to `asleep`, unchanged, and comes back with the first of
-/// them; a frozen grain has no velocity and no spin.
+/// Freezes every grain slower than `slow` [m/s] whose centre lies deeper than `depth` [m] below the bed's local surface, and wakes all others.
+/// The local surface is made of the elevations (bed_surface) of slow grains, without pores narrower than 1.5 diameters, and is the lowest of
+/// them within 2.5 diameters along x and y: so that a hole is seen from beside and below before it is there, and a grain that flies past buries none. What two grains at rest remember of each other moves to
+/// `asleep`, unchanged, and comes back with the first of them; a frozen grain has no velocity and no spin, and keeps the mean contact
+/// force that it had, which is what bears it when it wakes.
 void freeze_deep_grains(const BedScene&, double depth, double slow, Grains&, ContactHistory& contacts,
                         ContactHistory& asleep);
 

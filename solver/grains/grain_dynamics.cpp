@@ -73,6 +73,7 @@ void GrainDynamics::Workspace::take(const Grains& grains, const GrainDrive& driv
 
 void GrainDynamics::Workspace::give(Grains& grains, int substeps) const {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (grains.fixed[i] == frozen) continue;   // its other contacts sleep: what they bear is not in the sum
     grains.mean_contact_force[i] = sums[i].force / substeps;
     grains.mean_contact_torque[i] = sums[i].torque / substeps;
     if (grains.fixed[i]) continue;

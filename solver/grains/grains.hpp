@@ -9,6 +9,9 @@
 
 namespace bedload {
 
+/// In Grains::fixed: for now (bed/frozen_grains); 1 is for ever.
+constexpr std::uint8_t frozen = 2;
+
 /// All arrays have one entry per grain; the index is the grain's id. Ids are given in spatial order when a bed has
 /// settled, so that neighbours in space are neighbours in memory, and loops in order of id are loops in order of memory.
 struct Grains {

@@ -15,16 +15,16 @@ namespace {
 constexpr double d = 0.5e-3, slow = 1e-3;
 constexpr auto bottom = static_cast<std::uint32_t>(Wall::z_low);
 
-/// Columns of four grains, one upon the other, 2 d x 2 d each, in a row along x.
+/// Stacks of four grains, one upon the other, side by side: nx along x, ny along y.
 struct Columns {
-  explicit Columns(std::size_t count) {
-    scene.length = {2 * d * static_cast<double>(count), 2 * d, 20 * d};
+  explicit Columns(std::uint32_t nx, std::uint32_t ny = 1) : ny_(ny) {
+    scene.length = {d * nx, d * ny, 20 * d};
     scene.grains.diameter = d;
-    grains.resize(4 * count);
+    grains.resize(4 * nx * ny);
     std::ranges::fill(grains.diameter, d);
-    for (std::uint32_t c = 0; c < count; ++c)
+    for (std::uint32_t c = 0; c < nx * ny; ++c)
       for (std::uint32_t n = 0; n < 4; ++n) {
-        grains.position[4 * c + n] = {(2 * c + 1) * d, d, (n + 0.5) * d};
+        grains.position[4 * c + n] = {(c / ny + 0.5) * d, (c % ny + 0.5) * d, (n + 0.5) * d};
         if (n == 0) touch(4 * c, bottom, 0.5);
         if (n < 3) touch(4 * c + n, 4 * c + n + 1, n);
       }
@@ -38,6 +38,14 @@ struct Columns {
           contacts.spring.push_back({p.spring, 0, 0});
   }
   void freeze(double depth) { freeze_deep_grains(scene, depth, slow, grains, contacts, asleep); }
+  /// The two upper grains of a stack are on their way elsewhere.
+  void scour(std::uint32_t i, std::uint32_t j) {
+    for (const int n : {2, 3}) grains.velocity[4 * (i * ny_ + j) + n] = {1, 0, 0};
+  }
+  long frozen_in(std::uint32_t i, std::uint32_t j) const {
+    const auto first = grains.fixed.begin() + 4 * (i * ny_ + j);
+    return std::count(first, first + 4, frozen);
+  }
   std::vector<int> which_are_frozen() const { return {grains.fixed.begin(), grains.fixed.end()}; }
 
   struct Pair {
@@ -48,6 +56,9 @@ struct Columns {
   BedScene scene;
   Grains grains;
   ContactHistory contacts, asleep;
+
+ private:
+  std::uint32_t ny_;
 };
 
 TEST(FrozenGrains, LieDeeperThanAskedForAndKeepWhatTheyRemember) {
@@ -77,14 +88,33 @@ TEST(FrozenGrains, WakeWithoutWhatTheyNeverHad) {
   EXPECT_EQ(one.contacts.rolling, (std::vector<Vec3>{{}, {}, {1, 0, 0}, {2, 0, 0}}));
 }
 
+/// A hole two diameters wide is seen from 2.5 diameters around it, across the seams of the box too, and from no farther.
 TEST(FrozenGrains, WakeAsTheBedBesideThemIsScoured) {
-  Columns three(3);
-  three.freeze(2 * d);
-  EXPECT_EQ(std::ranges::count(three.grains.fixed, frozen), 6);
-  for (const int top : {10, 11})
-    three.grains.position[top] = {d, d, (top + 0.5 - 5) * d};   // two grains of the last column move onto the first
-  three.freeze(2 * d);
-  EXPECT_EQ(std::ranges::count(three.grains.fixed, frozen), 0) << "the hole is seen from the columns beside it";
+  Columns field(12, 10);
+  field.freeze(2 * d);
+  EXPECT_EQ(std::ranges::count(field.grains.fixed, frozen), 2 * 120);
+  for (const std::uint32_t i : {0u, 1u})
+    for (const std::uint32_t j : {0u, 1u}) field.scour(i, j);
+  field.freeze(2 * d);
+  for (std::uint32_t i = 0; i < 12; ++i)
+    for (std::uint32_t j = 0; j < 10; ++j) {
+      const bool near = (i <= 3 || i >= 10) && (j <= 3 || j >= 8);
+      EXPECT_EQ(field.frozen_in(i, j), near ? 0 : 2) << i << ' ' << j;
+    }
+}
+
+TEST(FrozenGrains, DoNotTakeAPoreForAHole) {
+  Columns field(6, 6);
+  field.scour(2, 3);
+  field.freeze(2 * d);
+  EXPECT_EQ(std::ranges::count(field.grains.fixed, frozen), 2 * 36);
+}
+
+TEST(FrozenGrains, AreNotStoppedOnTheirWay) {
+  Columns one(1);
+  one.grains.velocity[1] = {0, 0, -10 * slow};
+  one.freeze(2 * d);
+  EXPECT_EQ(one.which_are_frozen(), (std::vector<int>{frozen, 0, 0, 0}));
 }
 
 TEST(FrozenGrains, AreNotBuriedByOneThatFliesPast) {
@@ -136,6 +166,37 @@ TEST(FrozenGrains, HoldUpTheBedThatLiesOnThem) {
       << "six grain times after it was imposed the flow in the pores, which grains that may not give way slow more, "
          "still settles";
   EXPECT_LT(b.record.holds.momentum_residual[0], 0) << "not known";
+}
+
+/// What bore a grain before it was frozen bears it when it wakes: under hardly any flow none moves.
+TEST(FrozenGrains, WakeWithoutAKick) {
+  for (const bool added_mass : {false, true}) {
+    Scene scene = bed_scene(1.5 * d);
+    scene.drive.levels = {1e-6};
+    scene.terms.added_mass = added_mass;
+    Experiment deep(scene);
+    State state = deep.begin();
+    while (state.search.phase == Search::packing) deep.step(state);
+    for (int n = 0; n < 15; ++n) deep.step(state);
+    const long still = std::ranges::count(state.grains.fixed, frozen);
+    ASSERT_GT(still, 40);
+    const auto fastest = [&] {
+      double speed = 0;
+      for (const Vec3 v : state.grains.velocity) speed = std::max(speed, norm(v));
+      return speed;
+    };
+    const double before = fastest();
+    thaw(state.grains, state.contacts, state.asleep);
+    deep.step(state);
+    EXPECT_LT(fastest(), 1.5 * before + 1e-6) << "added mass " << added_mass;
+  }
+}
+
+TEST(FrozenGrains, LeaveTheSurfaceItselfAwake) {
+  const auto problems = problems_of(bed_scene(0.9 * d));
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].parameter, "models.frozen_depth");
+  EXPECT_TRUE(problems_of(bed_scene(1.5 * d)).empty());
 }
 
 }   // namespace
