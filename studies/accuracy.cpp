@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "solver/dimensionless.hpp"
 #include "solver/scene_numbers.hpp"
+#include "solver/state.hpp"
 #include "studies/setting_text.hpp"
 #include "studies/study_file.hpp"
 #include "studies/trade.hpp"
@@ -129,7 +130,7 @@ AccuracyChoice choice_from(const Study& study, const json& trade, const std::str
   made.pace = seconds / chosen.at("predicted_seconds").get<double>();
   made.galileo = scene.at("galileo"), made.density_ratio = scene.at("density_ratio"),
   made.shields = scene.at("shields"), made.diameter = scene.at("diameter_m"),
-  made.grain_time = scene.at("grain_time_s");
+  made.grain_time = scene.at("grain_time_s"), made.version = trade.at("physics_version");
   return made;
 }
 
@@ -145,8 +146,11 @@ std::string AccuracyChoice::in_words() const {
       fluid == "column" && !fluid_is_named ? "; a column, as x and y are periodic and the bed is level" : "";
   return fmt::format(
       "accuracy {:.3g} %: setting {} of {}, theta_c measured to be within {:.2g} % of the finest, for {:.2g} of its "
-      "time{}: {}{}",
-      100 * target, setting, from, 100 * error, cost, rung, list, passed_over.empty() ? "" : ". " + passed_over);
+      "time{}: {}{}{}",
+      100 * target, setting, from, 100 * error, cost, rung, list, passed_over.empty() ? "" : ". " + passed_over,
+      version == physics_version
+          ? ""
+          : fmt::format(". It was measured under physics_version {}; this bedload's is {}", version, physics_version));
 }
 
 std::optional<AccuracyChoice> chosen_accuracy(const Study& study, const TableReader& read_table, Problems& problems) {

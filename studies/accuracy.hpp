@@ -22,6 +22,7 @@ struct AccuracyChoice {
   double pace = 1;               // core seconds measured per core second that `plan` predicts by itself
   double galileo = 0, density_ratio = 0, shields = 0;   // of the scene of the trade [-]
   double diameter = 0, grain_time = 0;                  // of its grains [m], [s]
+  int version = 0;                                      // physics_version under which it was measured
 
   /// What was chosen, and why.
   std::string in_words() const;

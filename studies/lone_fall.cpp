@@ -54,25 +54,25 @@ double fall_speed(Scene lone, double longest) {
 
 }   // namespace
 
-double lone_fall_speed(const Scene& scene) {
-  if (scene.bed.sides[2] == Side::periodic || scene.bed.grains.density <= scene.bed.fluid.density) return unknown;
+std::array<double, 4> lone_fall_speeds(const Scene& scene) {
+  constexpr std::array nowhere{unknown, unknown, unknown, unknown};
+  if (scene.bed.sides[2] == Side::periodic || scene.bed.grains.density <= scene.bed.fluid.density) return nowhere;
   const double g = norm(scene.bed.gravity), d = scene.bed.grains.diameter;
   const double free =
       terminal_speed(scene.drag, scene.bed.fluid.viscosity, scene.bed.grains.density / scene.bed.fluid.density, d, g);
-  if (!(free > 0)) return unknown;
+  if (!(free > 0)) return nowhere;
   const double longest = 10 * scene.bed.length.z / free;
-  double sum = 0;
+  const auto at = [&](double i, double j) {
+    return fall_speed(
+        one_grain(scene, 0.5 * scene.bed.length.x + i * scene.grid.h.x, 0.5 * scene.bed.length.y + j * scene.grid.h.y),
+        longest);
+  };
   try {
-    for (const double i : {0.0, 0.5})
-      for (const double j : {0.0, 0.5})
-        sum += fall_speed(one_grain(scene, 0.5 * scene.bed.length.x + i * scene.grid.h.x,
-                                    0.5 * scene.bed.length.y + j * scene.grid.h.y),
-                          longest);
+    return {at(0, 0), at(0, 0.5), at(0.5, 0), at(0.5, 0.5)};
   } catch (const Error& error) {
     log_note(fmt::format("a lone grain cannot fall through this box: {}", error.what()));
-    return unknown;
+    return nowhere;
   }
-  return sum / 4;
 }
 
 }   // namespace bedload

@@ -1,13 +1,15 @@
 // A lone grain that falls where a bed would be: what mesh, terms and steps make of the one motion whose law is known.
 #pragma once
 
+#include <array>
+
 #include "solver/scene.hpp"
 
 namespace bedload {
 
-/// Speed [m/s] at which one grain of the scene falls through the middle of its box, without bed and without flow: between 0.55 and 0.35 of the height,
-/// let go at 0.75; mean over four places within a cell (corner, middles of two edges, centre). Fluid, mesh, laws, terms and steps are the scene's. nan where nothing falls,
-/// or the scene's terms want a bed.
-double lone_fall_speed(const Scene&);
+/// Speeds [m/s] at which one grain of the scene falls through the middle of its box, without bed and without flow: between 0.55 and 0.35 of the
+/// height, let go at 0.75, over four places within a cell (corner, middles of two edges, centre). Fluid, mesh, laws, terms and steps are the
+/// scene's. nan where nothing falls, or the scene's terms want a bed.
+std::array<double, 4> lone_fall_speeds(const Scene&);
 
 }   // namespace bedload

@@ -113,6 +113,14 @@ PairedDifference wider(const PairedDifference& a, const PairedDifference& b) {
   return a.known() && b.known() && a.high > b.high ? a : b;
 }
 
+/// A fall knows no packing: what scatters is where in a cell the grain falls.
+PairedDifference fall_difference(const TradeSetting& setting, const TradeSetting& finest) {
+  Differences places;
+  for (std::size_t n = 0; n < finest.fall_speeds.size(); ++n)
+    places.push_back({std::log(setting.fall_speeds[n] / finest.fall_speeds[n]), 0, std::to_string(n)});
+  return relative(paired(places, scatter_of({places})));
+}
+
 /// How far packings scatter is taken from all settings that begin on the finest's beds; where a setting has beds of its own, from those that
 /// have, but never as less: other beds scatter more.
 void compare(const std::vector<Packings>& outcomes, std::vector<TradeSetting>& settings) {
@@ -132,7 +140,8 @@ void compare(const std::vector<Packings>& outcomes, std::vector<TradeSetting>& s
     }
   }
   for (TradeSetting& setting : settings)
-    setting.theta = relative(setting.theta), setting.flux = relative_of_symmetric(setting.flux);
+    setting.theta = relative(setting.theta), setting.flux = relative_of_symmetric(setting.flux),
+    setting.fall = fall_difference(setting, settings.front());
 }
 
 /// Among settings that have a theta_c in every packing: one that failed in some is good for nothing.
@@ -163,7 +172,7 @@ void add_case(const Database& database, const Case& one, Packings& packings, Tra
   if (!outcome) return;
   outcome->bed_id = one.bed_id;
   packings[one.base_id.empty() ? one.id : one.base_id] = *outcome;
-  if (setting.packings == 0) setting.fall_speed = lone_fall_speed(one.scene);
+  if (setting.packings == 0) setting.fall_speeds = lone_fall_speeds(one.scene);
   ++setting.packings, setting.thresholds += std::isfinite(outcome->shields);
   setting.core_seconds += outcome->core_seconds;
   setting.predicted_seconds += predicted_cost(one.scene).core_seconds;

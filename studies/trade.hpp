@@ -1,6 +1,7 @@
 // Speed against accuracy: what each setting of a trade changes in the results, from the same settled beds, and what it costs.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -10,23 +11,25 @@
 
 namespace bedload {
 
-/// Of trade.json. 2: bounds of the differences, thresholds, grain time of the scene (1 had half widths).
-constexpr int trade_format = 2;
+/// Of trade.json. 2: bounds of the differences, thresholds, grain time of the scene (1 had half widths). 3: physics_version, difference of the
+/// lone fall.
+constexpr int trade_format = 3;
 
 /// A setting beside the finest one.
 struct TradeSetting {
-  std::string name;               // "finest", or what is changed
-  Settings changes;               // by key
-  std::size_t packings = 0;       // with results
-  std::size_t thresholds = 0;     // of them with a theta_c that is no bound
-  PairedDifference theta;         // of theta_c, relative [-]
-  PairedDifference flux;          // of the flux at the highest stair that both have climbed, relative [-]
-  PairedDifference height;        // of the bed's surface at the end of the first stair [d]
-  PairedDifference porosity;      // of the bed then [-]
-  double fall_speed = 0;          // of a lone grain in the setting's box (lone_fall); nan: none falls there [m/s]
-  double core_seconds = 0;        // of one packing, mean
-  double predicted_seconds = 0;   // what `plan` says of it without a trade, mean
-  bool frontier = false;          // none is as cheap and as good in theta
+  std::string name;             // "finest", or what is changed
+  Settings changes;             // by key
+  std::size_t packings = 0;     // with results
+  std::size_t thresholds = 0;   // of them with a theta_c that is no bound
+  PairedDifference theta;       // of theta_c, relative [-]
+  PairedDifference flux;        // of the flux at the highest stair that both have climbed, relative [-]
+  PairedDifference height;      // of the bed's surface at the end of the first stair [d]
+  PairedDifference porosity;    // of the bed then [-]
+  PairedDifference fall;   // of the speed of a lone grain in the setting's box, over places in a cell, relative [-]
+  std::array<double, 4> fall_speeds{};   // of it (lone_fall); nan: none falls there [m/s]
+  double core_seconds = 0;               // of one packing, mean
+  double predicted_seconds = 0;          // what `plan` says of it without a trade, mean
+  bool frontier = false;                 // none is as cheap and as good in theta
 };
 
 struct Trade {

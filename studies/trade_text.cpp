@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
+#include "solver/state.hpp"
 #include "studies/setting_text.hpp"
 #include "studies/svg_plot.hpp"
 #include "studies/trade.hpp"
@@ -29,12 +31,6 @@ std::string difference_in_words(const PairedDifference& d, double unit, std::str
   return (d.seen() ? signed_in_two_digits(scale * d.mean) : "< " + in_two_digits(scale * d.worst())) += sign;
 }
 
-/// Of a fall, which no packing scatters.
-std::string fall_in_words(const TradeSetting& one, const TradeSetting& finest) {
-  const double difference = one.fall_speed / finest.fall_speed - 1;
-  return std::isfinite(difference) && &one != &finest ? signed_in_two_digits(100 * difference) + "%" : "-";
-}
-
 std::vector<const TradeSetting*> cheapest_first(const Trade& trade) {
   std::vector<const TradeSetting*> all;
   for (const TradeSetting& one : trade.settings) all.push_back(&one);
@@ -46,6 +42,10 @@ std::vector<const TradeSetting*> cheapest_first(const Trade& trade) {
 
 nlohmann::ordered_json as_json(const PairedDifference& d) {
   return {{"difference", d.mean}, {"low", d.low}, {"high", d.high}, {"seen", d.seen()}};
+}
+
+double mean_of(const std::array<double, 4>& speeds) {
+  return std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
 }
 
 nlohmann::ordered_json as_json(const Settings& settings) {
@@ -70,11 +70,10 @@ std::string trade_as_table(const Trade& trade) {
     const auto words = [&](const PairedDifference& d, double unit, std::string_view sign) {
       return one == &trade.settings.front() ? "-" : difference_in_words(d, unit, sign);
     };
-    text +=
-        fmt::format("{} {:<{}} {:>8} {:>10} {:>7.0f}% {:>9} {:>9} {:>9} {:>9} {:>9}\n", one->frontier ? '*' : ' ',
-                    one->name, width, one->packings, in_two_digits(one->core_seconds), 100 * one->core_seconds / finest,
-                    words(one->theta, 0.01, "%"), words(one->flux, 0.01, "%"), words(one->height, 1, ""),
-                    words(one->porosity, 1, ""), fall_in_words(*one, trade.settings.front()));
+    text += fmt::format("{} {:<{}} {:>8} {:>10} {:>7.0f}% {:>9} {:>9} {:>9} {:>9} {:>9}\n", one->frontier ? '*' : ' ',
+                        one->name, width, one->packings, in_two_digits(one->core_seconds),
+                        100 * one->core_seconds / finest, words(one->theta, 0.01, "%"), words(one->flux, 0.01, "%"),
+                        words(one->height, 1, ""), words(one->porosity, 1, ""), words(one->fall, 0.01, "%"));
   }
   return text + fmt::format(
                     "differences to the finest setting, same beds, mean over the packings; < : not seen, may be as "
@@ -96,12 +95,14 @@ std::string trade_as_json(const Trade& trade) {
                         {"core_seconds", one.core_seconds},
                         {"predicted_seconds", one.predicted_seconds},
                         {"frontier", one.frontier},
-                        {"lone_fall_m_per_s", one.fall_speed},
+                        {"lone_fall_m_per_s", mean_of(one.fall_speeds)},
                         {"theta", as_json(one.theta)},
                         {"flux", as_json(one.flux)},
                         {"height_d", as_json(one.height)},
-                        {"porosity", as_json(one.porosity)}});
+                        {"porosity", as_json(one.porosity)},
+                        {"lone_fall", as_json(one.fall)}});
   const nlohmann::ordered_json json = {{"format", trade_format},
+                                       {"physics_version", physics_version},
                                        {"study", trade.study},
                                        {"scene",
                                         {{"galileo", trade.galileo},

@@ -17,6 +17,11 @@ Scene scene_with(const std::string& more) {
   return unfold(parse_study(text + more, "study.toml")).front().scene;
 }
 
+double lone_fall_speed(const Scene& scene) {
+  const auto speeds = lone_fall_speeds(scene);
+  return (speeds[0] + speeds[1] + speeds[2] + speeds[3]) / 4;
+}
+
 /// Between bottom, lid and its own images in a box of 10 x 6 x 13 d a grain falls some percent slower than in a wide liquid.
 TEST(LoneFall, IsNearTheTerminalSpeedOfTheDragLaw) {
   const Scene scene = scene_with("");

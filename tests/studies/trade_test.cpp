@@ -1,12 +1,14 @@
 // What settings change and cost, from pairs of cases on the same packings; and the choice by a wanted accuracy.
 #include "studies/trade.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "scheduler/ledger.hpp"
+#include "solver/state.hpp"
 #include "studies/accuracy.hpp"
 #include "studies/case_entry.hpp"
 #include "studies/database_values.hpp"
@@ -136,8 +138,8 @@ TEST_F(MeasuredTrade, ComparesEveryPackingWithItself) {
   const double bracket = std::log(1.04) / (2 * std::sqrt(3.0));
   EXPECT_NEAR(mesh.theta.low, 1.1 * std::exp(-2 * bracket) - 1, 1e-12);
   EXPECT_NEAR(mesh.theta.high, 1.1 * std::exp(2 * bracket) - 1, 1e-12);
-  EXPECT_EQ(brief.fall_speed, finest.fall_speed) << "the same mesh and steps";
-  EXPECT_NE(mesh.fall_speed, finest.fall_speed);
+  EXPECT_EQ(brief.fall_speeds, finest.fall_speeds) << "the same mesh and steps";
+  EXPECT_EQ(brief.fall.worst(), 0);
   EXPECT_NEAR(mesh.flux.mean, 1, 1e-12);
   EXPECT_NEAR(mesh.height.mean, 0, 1e-12);
   EXPECT_NEAR(brief.theta.mean, 0, 1e-12);
@@ -145,6 +147,21 @@ TEST_F(MeasuredTrade, ComparesEveryPackingWithItself) {
   EXPECT_NEAR(brief.height.mean, -0.1, 1e-12);
   EXPECT_DOUBLE_EQ(brief.core_seconds, 22);
   EXPECT_DOUBLE_EQ(trade.density_ratio, 2);
+}
+
+/// Four places in a cell of the one mesh against the same four of the other: mean of the logarithms, Student's t of three degrees of freedom.
+TEST_F(MeasuredTrade, KnowsHowWellALoneFallIsKnown) {
+  finish_all();
+  const Trade trade = measured_trade(database, study, cases);
+  const TradeSetting &finest = trade.settings[0], &mesh = trade.settings[1];
+  std::array<double, 4> logs;
+  for (std::size_t n = 0; n < 4; ++n) logs[n] = std::log(mesh.fall_speeds[n] / finest.fall_speeds[n]);
+  const double mean = (logs[0] + logs[1] + logs[2] + logs[3]) / 4;
+  double squares = 0;
+  for (const double l : logs) squares += (l - mean) * (l - mean);
+  EXPECT_NE(mean, 0);
+  EXPECT_NEAR(mesh.fall.mean, std::expm1(mean), 1e-12);
+  EXPECT_NEAR(mesh.fall.high, std::expm1(mean + 3.182 * std::sqrt(squares / 3 / 4)), 1e-12);
 }
 
 TEST_F(MeasuredTrade, MarksWhatNoneBeatsInCostAndError) {
@@ -282,6 +299,14 @@ class Accuracy : public MeasuredTrade {
     finish_all();
     json = trade_as_json(measured_trade(database, study, cases));
   }
+  std::string words(const std::string& text) {
+    const Study asked = parse_study(text, "other.toml");
+    Problems problems("other.toml");
+    const auto chosen = chosen_accuracy(
+        asked, [this](const std::filesystem::path&) { return json; }, problems);
+    problems.throw_if_any();
+    return chosen->in_words();
+  }
   std::vector<Case> unfolded(const std::string& text) const {
     return unfold(parse_study(text, "other.toml"), [this](const std::filesystem::path&) { return json; });
   }
@@ -332,14 +357,6 @@ class AccuracyOfRungs : public Accuracy {
     trade["finest"]["models.fluid"] = "\"auto\"";
     trade["settings"][2]["changes"]["models.fluid"] = "\"" + rung + "\"";
     json = trade.dump();
-  }
-  std::string words(const std::string& text) {
-    const Study asked = parse_study(text, "other.toml");
-    Problems problems("other.toml");
-    const auto chosen = chosen_accuracy(
-        asked, [this](const std::filesystem::path&) { return json; }, problems);
-    problems.throw_if_any();
-    return chosen->in_words();
   }
 };
 
@@ -421,11 +438,20 @@ TEST_F(Accuracy, StandsBesideAnErrorBudget) {
   EXPECT_DOUBLE_EQ(area->scene.bed.length.x, 2 * all[0].scene.bed.length.x);
 }
 
+TEST_F(Accuracy, SaysThatATradeIsOfAnotherPhysicsVersion) {
+  EXPECT_FALSE(says(words(asking("5 %")), "physics_version"));
+  auto trade = nlohmann::json::parse(json);
+  trade["physics_version"] = physics_version - 1;
+  json = trade.dump();
+  EXPECT_TRUE(says(words(asking("5 %")), fmt::format("It was measured under physics_version {}; this bedload's is {}",
+                                                     physics_version - 1, physics_version)));
+}
+
 TEST_F(Accuracy, ReadsNoTradeOfAnotherFormat) {
   auto trade = nlohmann::json::parse(json);
   trade["format"] = 1;
   json = trade.dump();
-  EXPECT_TRUE(says(why([&] { unfolded(asking("5 %")); }), "has format 1; this bedload reads 2"));
+  EXPECT_TRUE(says(why([&] { unfolded(asking("5 %")); }), "has format 1; this bedload reads 3"));
 }
 
 TEST_F(Accuracy, RefusesAValueBesideItsOwn) {
