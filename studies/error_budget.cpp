@@ -64,6 +64,15 @@ double size_of(const BudgetEntry& e) { return e.theta.seen() ? std::abs(e.theta.
 
 }   // namespace
 
+void store_error_sources(Database& database) {
+  database.execute("DELETE FROM error_sources");
+  for (const BudgetEntry& e : error_budget(database))
+    database.execute("INSERT INTO error_sources VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+                     {e.source, e.label, static_cast<std::int64_t>(e.packings), real_or_null(e.theta.mean),
+                      real_or_null(e.theta.low), real_or_null(e.theta.high), std::int64_t{e.scatter_known},
+                      real_or_null(size_of(e))});
+}
+
 double systematic_error(const std::vector<BudgetEntry>& budget) {
   if (std::ranges::none_of(budget, [](const BudgetEntry& e) { return e.source == "mesh" && e.packings > 0; }))
     return std::numeric_limits<double>::quiet_NaN();

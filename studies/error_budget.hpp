@@ -27,6 +27,9 @@ void store_variations(Database&, const std::vector<Case>&);
 /// sources together: three packings say little of it.
 std::vector<BudgetEntry> error_budget(const Database&);
 
+/// Writes them into table error_sources, in place of what is there.
+void store_error_sources(Database&);
+
 /// Square root of the sum of the squares of all differences, or of the bounds of what is not seen; nan as long as the mesh is not among them.
 double systematic_error(const std::vector<BudgetEntry>&);
 

@@ -256,11 +256,22 @@ CREATE VIEW IF NOT EXISTS error_budget AS          -- per pair: theta_c of the v
          b.shields_upper AS base_upper, p.shields AS shields_pair, p.shields_lower AS pair_lower,
          p.shields_upper AS pair_upper, p.shields / b.shields - 1 AS difference,
          (b.shields_upper - b.shields_lower) / (b.shields_upper + b.shields_lower)
-           + (p.shields_upper - p.shields_lower) / (p.shields_upper + p.shields_lower) AS uncertainty,
+           + (p.shields_upper - p.shields_lower) / (p.shields_upper + p.shields_lower) AS uncertainty,   -- of the brackets
          v.base_id, v.case_id
   FROM variations v
     JOIN (SELECT * FROM thresholds JOIN scenes USING (case_id) WHERE decides) b ON b.case_id = v.base_id
     JOIN (SELECT * FROM thresholds WHERE decides) p ON p.case_id = v.case_id;
+
+CREATE TABLE IF NOT EXISTS error_sources (         -- per source of the budget, over its pairs: what curve and report say
+  source                    TEXT PRIMARY KEY,      -- bracket | hold | mesh | area
+  label                     TEXT NOT NULL,         -- of the scene
+  packings                  INTEGER NOT NULL,      -- with a threshold of both
+  difference                REAL,                  -- mean, relative; NULL = every pair has a censored case
+  difference_lower          REAL,                  -- where it lies with 95 %
+  difference_upper          REAL,
+  scatter_known             INTEGER NOT NULL,      -- 0: one packing, the interval is of the brackets alone
+  size                      REAL                   -- what counts: the difference, or the farther bound of one not seen
+) STRICT;
 
 CREATE TABLE IF NOT EXISTS threshold_curve (       -- per parameter set, over its seeds
   label                     TEXT NOT NULL,

@@ -176,6 +176,7 @@ void update_threshold_curve(Database& database) {
   Database::Transaction transaction(database);
   database.execute("DELETE FROM threshold_curve");
   for (const ThresholdPoint& point : curve_from_thresholds(database)) insert(database, point);
+  store_error_sources(database);
   transaction.commit();
 }
 

@@ -134,6 +134,13 @@ TEST_F(BudgetOfResults, IsTheDifferencesOfThePairsOrWhatTheyWouldHaveToExceed) {
   EXPECT_EQ(budget[1].source, "mesh");
   EXPECT_NEAR(budget[1].theta.mean, 0.2, 1e-12);
   EXPECT_NEAR(only_point().systematic, std::hypot(0.2, budget[0].theta.worst()), 1e-12);
+  const auto stored = database.query("SELECT source, packings, difference, difference_upper, size FROM error_sources");
+  ASSERT_EQ(stored.rows.size(), 2u);
+  EXPECT_EQ(text_in(stored.rows[0][0]), "hold");
+  EXPECT_EQ(std::get<std::int64_t>(stored.rows[0][1]), 1);
+  EXPECT_NEAR(number_in(stored.rows[0][3]), 1.01 * std::exp(two_deviations) - 1, 1e-12);
+  EXPECT_NEAR(number_in(stored.rows[0][4]), budget[0].theta.worst(), 1e-12) << "not seen: the bound";
+  EXPECT_NEAR(number_in(stored.rows[1][4]), 0.2, 1e-12);
   EXPECT_EQ(budget_in_words(budget),
             "hold x 3 < 4.3 %, mesh x 2 +20 %; together 20 % (1 packing of d0.5mm-rho2000: how far it scatters is not "
             "known)");

@@ -300,7 +300,7 @@ TEST_F(ResultsTest, AnswerTheQuestionsOfTheDocumentation) {
   const auto queries = documented_queries();
   EXPECT_EQ(queries.size(), 9u);
   for (const std::string& sql : queries) {
-    const bool of_pairs = sql.find("error_budget") != std::string::npos;   // one case has none
+    const bool of_pairs = sql.find("error_sources") != std::string::npos;   // one case has none
     EXPECT_EQ(database_.query(sql).rows.empty(), of_pairs) << sql;
   }
 }
