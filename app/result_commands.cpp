@@ -126,13 +126,29 @@ int query_command(const StudyOptions& options, const std::string& sql) {
   return 0;
 }
 
+namespace {
+
+/// What a study with [[trade]] has measured so far, without lone falls, which take their time.
+std::optional<Trade> trade_of(const Database& database, const StudyPlace& place) {
+  try {
+    const auto study = read_study(place.file);
+    if (!study.trades.empty()) return measured_trade(database, study, unfold(study));
+  } catch (const Error& error) {
+    log_note(fmt::format("the report has no trade: {}", error.what()));
+  }
+  return {};
+}
+
+}   // namespace
+
 std::filesystem::path write_report(const StudyPlace& place) {
   const auto database = open_results(place);
   const auto file = place.directory / "report.html";
   const ReportRequest request{.study = place.directory.filename().string(),
                               .command = fmt::format("bedload run {}", place.file.filename().string()),
                               .written = utc_now(),
-                              .beds = views(read_cases(database), place.directory)};
+                              .beds = views(read_cases(database), place.directory),
+                              .trade = trade_of(database, place)};
   publish(file, report_html(database, request));
   return file;
 }

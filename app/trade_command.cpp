@@ -10,6 +10,7 @@
 #include "studies/case_entry.hpp"
 #include "studies/plan.hpp"
 #include "studies/study_file.hpp"
+#include "studies/svg_plot.hpp"
 #include "studies/trade.hpp"
 
 namespace bedload {
@@ -47,9 +48,10 @@ int trade_command(RunOptionsOfCommand options, std::optional<double> core_hours)
   const int code = run_command(options);
   const bool complete = code == 0 || code == static_cast<int>(ErrorKind::some_failed);   // what failed is not compared
   if (!complete) return code;
-  const auto trade = measured_trade(open_results(place), study, cases);
+  auto trade = measured_trade(open_results(place), study, cases);
+  add_lone_falls(trade, cases);
   publish(place.directory / "trade.json", trade_as_json(trade));
-  publish(place.directory / "trade.svg", trade_figure(trade));
+  publish(place.directory / "trade.svg", standing_alone(trade_figure(trade)));
   fmt::print("{}", options.study.form == Form::json ? trade_as_json(trade) : trade_as_table(trade));
   log_note(fmt::format("{} and trade.svg beside it; another study uses it with models.accuracy",
                        (place.directory / "trade.json").string()));

@@ -55,12 +55,11 @@ double fall_speed(Scene lone, double longest) {
 }   // namespace
 
 std::array<double, 4> lone_fall_speeds(const Scene& scene) {
-  constexpr std::array nowhere{unknown, unknown, unknown, unknown};
-  if (scene.bed.sides[2] == Side::periodic || scene.bed.grains.density <= scene.bed.fluid.density) return nowhere;
+  if (scene.bed.sides[2] == Side::periodic || scene.bed.grains.density <= scene.bed.fluid.density) return no_falls;
   const double g = norm(scene.bed.gravity), d = scene.bed.grains.diameter;
   const double free =
       terminal_speed(scene.drag, scene.bed.fluid.viscosity, scene.bed.grains.density / scene.bed.fluid.density, d, g);
-  if (!(free > 0)) return nowhere;
+  if (!(free > 0)) return no_falls;
   const double longest = 10 * scene.bed.length.z / free;
   const auto at = [&](double i, double j) {
     return fall_speed(
@@ -71,7 +70,7 @@ std::array<double, 4> lone_fall_speeds(const Scene& scene) {
     return {at(0, 0), at(0, 0.5), at(0.5, 0), at(0.5, 0.5)};
   } catch (const Error& error) {
     log_note(fmt::format("a lone grain cannot fall through this box: {}", error.what()));
-    return nowhere;
+    return no_falls;
   }
 }
 

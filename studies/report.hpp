@@ -1,11 +1,13 @@
 // The report: one self-contained HTML page, plots as inline SVG, nothing fetched.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scheduler/database.hpp"
 #include "solver/grains/grains.hpp"
+#include "studies/trade.hpp"
 
 namespace bedload {
 
@@ -28,6 +30,7 @@ struct ReportRequest {
   std::string command;           // that reproduces the figures
   std::string written;           // date and time, as text; empty = not said
   std::vector<CaseViews> beds;   // the pictures of a case stand side by side
+  std::optional<Trade> trade;    // of a study with [[trade]]
 };
 
 /// The whole page. Reads the result tables (which may be empty) and, where they exist, the tables of the ledger.

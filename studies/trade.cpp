@@ -13,7 +13,6 @@
 #include "base/error.hpp"
 #include "solver/scene_numbers.hpp"
 #include "studies/database_values.hpp"
-#include "studies/lone_fall.hpp"
 #include "studies/plan.hpp"
 #include "studies/study_keys.hpp"
 #include "studies/threshold_curve.hpp"
@@ -140,8 +139,7 @@ void compare(const std::vector<Packings>& outcomes, std::vector<TradeSetting>& s
     }
   }
   for (TradeSetting& setting : settings)
-    setting.theta = relative(setting.theta), setting.flux = relative_of_symmetric(setting.flux),
-    setting.fall = fall_difference(setting, settings.front());
+    setting.theta = relative(setting.theta), setting.flux = relative_of_symmetric(setting.flux);
 }
 
 /// Among settings that have a theta_c in every packing: one that failed in some is good for nothing.
@@ -167,12 +165,13 @@ Setting value_in(const Study& study, const std::string& key) {
               "give it in the study: the value of the finest setting");
 }
 
+std::string name_in_trade(const Case& one) { return one.base_id.empty() ? "finest" : one.variation; }
+
 void add_case(const Database& database, const Case& one, Packings& packings, TradeSetting& setting) {
   auto outcome = outcome_of(database, one.id);
   if (!outcome) return;
   outcome->bed_id = one.bed_id;
   packings[one.base_id.empty() ? one.id : one.base_id] = *outcome;
-  if (setting.packings == 0) setting.fall_speeds = lone_fall_speeds(one.scene);
   ++setting.packings, setting.thresholds += std::isfinite(outcome->shields);
   setting.core_seconds += outcome->core_seconds;
   setting.predicted_seconds += predicted_cost(one.scene).core_seconds;
@@ -191,7 +190,7 @@ Trade measured_trade(const Database& database, const Study& study, const std::ve
   Trade trade{.study = study.name, .settings = {{.name = "finest"}}};
   std::vector<Packings> outcomes(1);
   for (const Case& one : cases) {
-    const std::string& name = one.base_id.empty() ? trade.settings[0].name : one.variation;
+    const std::string name = name_in_trade(one);
     auto known = std::ranges::find(trade.settings, name, &TradeSetting::name);
     if (known == trade.settings.end()) {
       trade.settings.push_back({.name = name, .changes = one.changes});
@@ -218,6 +217,14 @@ Trade measured_trade(const Database& database, const Study& study, const std::ve
   }
   trade.grain_time = numbers_of(cases.front().scene).grain_time;
   return trade;
+}
+
+void add_lone_falls(Trade& trade, const std::vector<Case>& cases) {
+  for (TradeSetting& setting : trade.settings) {
+    if (setting.packings == 0) continue;
+    setting.fall_speeds = lone_fall_speeds(std::ranges::find(cases, setting.name, name_in_trade)->scene);
+    setting.fall = fall_difference(setting, trade.settings.front());
+  }
 }
 
 }   // namespace bedload

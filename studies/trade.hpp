@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "scheduler/database.hpp"
+#include "studies/lone_fall.hpp"
 #include "studies/paired_difference.hpp"
 #include "studies/study.hpp"
 
@@ -25,11 +27,11 @@ struct TradeSetting {
   PairedDifference flux;        // of the flux at the highest stair that both have climbed, relative [-]
   PairedDifference height;      // of the bed's surface at the end of the first stair [d]
   PairedDifference porosity;    // of the bed then [-]
-  PairedDifference fall;   // of the speed of a lone grain in the setting's box, over places in a cell, relative [-]
-  std::array<double, 4> fall_speeds{};   // of it (lone_fall); nan: none falls there [m/s]
-  double core_seconds = 0;               // of one packing, mean
-  double predicted_seconds = 0;          // what `plan` says of it without a trade, mean
-  bool frontier = false;                 // none is as cheap and as good in theta
+  std::array<double, 4> fall_speeds = no_falls;   // of a lone grain in the setting's box, over places in a cell [m/s]
+  PairedDifference fall{NAN, NAN, NAN};           // of them, relative [-]
+  double core_seconds = 0;                        // of one packing, mean
+  double predicted_seconds = 0;                   // what `plan` says of it without a trade, mean
+  bool frontier = false;                          // none is as cheap and as good in theta
 };
 
 struct Trade {
@@ -44,15 +46,20 @@ struct Trade {
 /// Throws Error study_invalid for a study without [[trade]].
 void refuse_without_trades(const Study&);
 
-/// From the finished cases of the study's database. Throws Error not_found where the finest setting has no result yet, and
+/// From the finished cases of the study's database, without lone falls. Throws Error not_found where the finest setting has no result yet, and
 /// study_invalid for a study without [[trade]].
 Trade measured_trade(const Database&, const Study&, const std::vector<Case>&);
 
+/// Lets a grain fall in the box of every setting that has results.
+void add_lone_falls(Trade&, const std::vector<Case>&);
+
+/// The table's heads, then a row per setting, cheapest first, a star before the names of the frontier. Lone falls only where there are any.
+std::vector<std::vector<std::string>> trade_cells(const Trade&);
 /// For people: a line per setting, cheapest first, the frontier marked.
 std::string trade_as_table(const Trade&);
 /// For programs, and for `accuracy` in [models] of other studies.
 std::string trade_as_json(const Trade&);
-/// Error of theta_c against cost, as a self-contained SVG.
+/// Error of theta_c against cost, as SVG for a page; empty where nothing is known of any.
 std::string trade_figure(const Trade&);
 
 }   // namespace bedload

@@ -56,24 +56,40 @@ nlohmann::ordered_json as_json(const Settings& settings) {
 
 }   // namespace
 
-std::string trade_as_table(const Trade& trade) {
-  std::size_t width = 7;
-  for (const TradeSetting& one : trade.settings) width = std::max(width, one.name.size());
-  std::string text = fmt::format("  {:<{}} {:>8} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "setting", width,
-                                 "packings", "core s", "cost", "theta_c", "flux", "height/d", "porosity", "fall");
-  const double finest = trade.settings.front().core_seconds;
+std::vector<std::vector<std::string>> trade_cells(const Trade& trade) {
+  std::vector<std::vector<std::string>> rows{
+      {"setting", "packings", "core s", "cost", "theta_c", "flux", "height/d", "porosity"}};
+  const TradeSetting& finest = trade.settings.front();
+  const bool falls = std::isfinite(finest.fall_speeds[0]);
+  if (falls) rows[0].push_back("fall");
   for (const TradeSetting* one : cheapest_first(trade)) {
+    auto& row = rows.emplace_back(std::vector{(one->frontier ? "* " : "  ") + one->name});
     if (one->packings == 0) {
-      text += fmt::format("  {:<{}} no result\n", one->name, width);
+      row.push_back("no result");
       continue;
     }
     const auto words = [&](const PairedDifference& d, double unit, std::string_view sign) {
-      return one == &trade.settings.front() ? "-" : difference_in_words(d, unit, sign);
+      return one == &finest ? "-" : difference_in_words(d, unit, sign);
     };
-    text += fmt::format("{} {:<{}} {:>8} {:>10} {:>7.0f}% {:>9} {:>9} {:>9} {:>9} {:>9}\n", one->frontier ? '*' : ' ',
-                        one->name, width, one->packings, in_two_digits(one->core_seconds),
-                        100 * one->core_seconds / finest, words(one->theta, 0.01, "%"), words(one->flux, 0.01, "%"),
-                        words(one->height, 1, ""), words(one->porosity, 1, ""), words(one->fall, 0.01, "%"));
+    row.insert(row.end(),
+               {std::to_string(one->packings), in_two_digits(one->core_seconds),
+                fmt::format("{:.0f}%", 100 * one->core_seconds / finest.core_seconds), words(one->theta, 0.01, "%"),
+                words(one->flux, 0.01, "%"), words(one->height, 1, ""), words(one->porosity, 1, "")});
+    if (falls) row.push_back(words(one->fall, 0.01, "%"));
+  }
+  return rows;
+}
+
+std::string trade_as_table(const Trade& trade) {
+  auto rows = trade_cells(trade);
+  rows[0][0] = "  " + rows[0][0];
+  std::size_t width = 0;
+  for (const auto& row : rows) width = std::max(width, row[0].size());
+  std::string text;
+  for (const auto& row : rows) {
+    text += fmt::format("{:<{}}", row[0], width);
+    for (std::size_t n = 1; n < row.size(); ++n) text += fmt::format(" {:>{}}", row[n], n == 2 ? 10 : n < 4 ? 8 : 9);
+    text += "\n";
   }
   return text + fmt::format(
                     "differences to the finest setting, same beds, mean over the packings; < : not seen, may be as "
@@ -163,7 +179,7 @@ std::string trade_figure(const Trade& trade) {
   for (std::size_t n = 0; n < settings.size(); ++n) {
     const TradeSetting& one = *settings[n];
     const bool finest = &one == &trade.settings.front(), filled = finest || one.theta.seen();
-    const std::string_view colour = one.frontier ? "#1f6feb" : "#8a8a8a";
+    const std::string_view colour = one.frontier ? "var(--blue)" : "var(--frame)";
     const std::string difference = finest ? "" : difference_in_words(one.theta, 0.01, "%"),
                       number = std::to_string(n + 1);
     const double cost = one.core_seconds,
@@ -180,7 +196,7 @@ std::string trade_figure(const Trade& trade) {
   }
   plot.legend_heading("blue: on the frontier");
   plot.legend_heading("open: a bound, not seen");
-  return standing_alone(plot.svg());
+  return plot.svg();
 }
 
 }   // namespace bedload

@@ -33,6 +33,8 @@ TEST(Trade, MeasuresWhatAnotherStudyThenFollows) {
   EXPECT_EQ(json["settings"][1]["changes"]["drive.dwell"], "\"2 td\"");
   EXPECT_LT(json["settings"][1]["core_seconds"].get<double>(), json["settings"][0]["core_seconds"].get<double>());
   EXPECT_TRUE(read_text(here.path() / "trade" / "trade.svg").starts_with("<svg xmlns="));
+  EXPECT_NE(read_text(here.path() / "trade" / "report.html").find("Trade of speed against accuracy"),
+            std::string::npos);
 
   std::ofstream(here.path() / "tiny.toml") << with(
       one_scene(), "[drive]", "[models]\naccuracy = { target = \"500 %\", from = \"trade/trade.json\" }\n\n[drive]");

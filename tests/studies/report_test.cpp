@@ -61,7 +61,7 @@ class ReportTest : public ::testing::Test {
       database_.execute("INSERT INTO bed_statistics VALUES ('c',1,?,0.5,0.1,0.05,0)", {z * 1e-3});
     database_.execute("INSERT INTO models VALUES ('c',0,'drag',1,1,0.5,'a < b & c')");
   }
-  std::string page() const { return report_html(database_, {"my <study>", "bedload run my.toml", "", {}}); }
+  std::string page() const { return report_html(database_, {"my <study>", "bedload run my.toml", "", {}, {}}); }
 
   TemporaryDirectory directory_;
   Database database_{directory_.path() / "study.db", Database::Mode::write};
@@ -264,6 +264,20 @@ TEST_F(ReportTest, HasATableOfMovers) {
 }
 
 // One hold with transport, and one without.
+TEST_F(ReportTest, HasTheTradeOfAStudyThatMakesOne) {
+  EXPECT_EQ(occurrences(page(), "Trade of speed against accuracy"), 0u);
+  Trade trade{.study = "t", .settings = {{.name = "finest", .packings = 2}, {.name = "fast & bad", .packings = 2}}};
+  trade.settings[0].core_seconds = 100, trade.settings[1].core_seconds = 25;
+  trade.settings[1].theta = {0.3, 0.2, 0.4};
+  trade.settings[0].frontier = trade.settings[1].frontier = true;
+  const auto html = report_html(database_, {.study = "t", .trade = trade});
+  for (const auto* part : {"Trade of speed against accuracy", "<td>* fast &amp; bad</td>", "<td class='n'>25%</td>",
+                           "<td class='n'>+30%</td>", ">1 fast &amp; bad +30%<"})
+    EXPECT_EQ(occurrences(html, part), 1u) << part;
+  EXPECT_EQ(occurrences(html, "fast & bad"), 0u);
+  EXPECT_FALSE(std::regex_search(html.substr(html.find("</style>")), std::regex("['\"]#[0-9a-f]{3,8}['\"]")));
+}
+
 TEST_F(ReportTest, DrawsTransportOverShieldsNumber) {
   EXPECT_EQ(transport_figure(database_), "");
   add_case();
