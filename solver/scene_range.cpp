@@ -122,7 +122,7 @@ void cells_at_a_bed(const SceneFacts& f, Found& found) {
   if (f.n.gap < cells_in_a_gap * h)
     found.push_back(
         {"box.cell.z",
-         fmt::format("the gap above the bed is {:.2g} cells high; its flow wants {:g}", f.n.gap / h, cells_in_a_gap),
+         fmt::format("the gap above the bed is {:.3g} cells high; its flow wants {:g}", f.n.gap / h, cells_in_a_gap),
          "flatter cells, or a higher box"});
 }
 
