@@ -14,7 +14,7 @@
 namespace bedload {
 
 /// Version of the layout of checkpoint files: which fields, under which names, units and shapes.
-inline constexpr std::uint64_t checkpoint_format = 5;
+inline constexpr std::uint64_t checkpoint_format = 6;
 
 /// A whole checkpoint that this program is too old to read. Not broken: never put aside as if it were.
 struct WrittenByNewer : Error {

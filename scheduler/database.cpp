@@ -15,7 +15,7 @@
 namespace bedload {
 namespace {
 
-constexpr int layout_version = 6;     // PRAGMA user_version: moves when a table changes its meaning
+constexpr int layout_version = 7;     // PRAGMA user_version: moves when a table changes its meaning
 constexpr int patience_ms = 10'000;   // how long a statement waits for another process's transaction
 
 /// WAL needs memory shared between all who open the file, which network file systems do not have (statfs(2) magics).

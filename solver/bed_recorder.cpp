@@ -11,6 +11,7 @@
 #include "solver/bed/incipient_motion.hpp"
 #include "solver/coupling/drag_laws.hpp"
 #include "solver/dimensionless.hpp"
+#include "solver/grains/slice_volume.hpp"
 
 namespace bedload {
 
@@ -18,7 +19,8 @@ namespace {
 
 constexpr double blocks_per_half = 5;      // for the standard error of the flux: each a few grain times long
 constexpr double instants_per_half = 64;   // of the profiles: under a grain time apart, yet a small part of the steps
-constexpr double not_known = -1;   // a residual where walls or fixed grains take part unseen, or an imposed flow
+constexpr double not_known =
+    -1;   // a residual where walls or fixed grains take part unseen, or an imposed flow; a speed where nothing moves
 
 double density_ratio(const Scene& scene) { return scene.bed.grains.density / scene.bed.fluid.density; }
 
@@ -168,26 +170,36 @@ double BedRecorder::flux(double events, double duration) const {
   return grain_time_ > 0 ? events * grain_time_ / (surface_grains_ * duration) : 0;
 }
 
-/// Of what drives the mixture, the part below z_b [N].
-double BedRecorder::driven_below(const Search& search) const {
-  return scene_.bed.fluid.density * search.gradient * area_ * search.bed_height;
+/// Of what drives the mixture, the part below z_b [N]. Of an imposed flow the fluid there stands still and hands nothing on: what remains is
+/// what the volume of grains feels, in Model A.
+double BedRecorder::driven_below(const State& state) const {
+  const Search& search = state.search;
+  const double per_volume = scene_.bed.fluid.density * search.gradient;
+  if (scene_.fluid != FluidRung::profile || search.gradient == 0) return per_volume * area_ * search.bed_height;
+  double solid = 0;
+  if (!scene_.terms.model_b())
+    for (std::size_t p = 0; p < state.grains.size(); ++p) {
+      const double radius = state.grains.diameter[p] / 2;
+      solid += slice_volume(radius, -radius, search.bed_height - state.grains.position[p].z);
+    }
+  return per_volume * solid;
 }
 
 /// tau_b A = force on grains + force on the bottom + d/dt of the fluid's momentum below z_b - the drive below z_b.
-double BedRecorder::measured_shields(const Search& search, const Window& window, const StreamwiseMomentum& now) const {
+double BedRecorder::measured_shields(const State& state, const Window& window, const StreamwiseMomentum& now) const {
   if (stress_scale_ <= 0 || scene_.grid.periodic(2)) return 0;
   const double force =
-      (window.bed_impulse + now.fluid_below - window.bed_fluid_momentum) / window.duration - driven_below(search);
+      (window.bed_impulse + now.fluid_below - window.bed_fluid_momentum) / window.duration - driven_below(state);
   return force / (area_ * stress_scale_);
 }
 
 /// tau_b A = force of the lid on the fluid + the drive above z_b: what measured_shields is but for the d/dt of the momentum of
 /// the fluid above z_b, where that momentum has nowhere else to go; 0 where it has.
-double BedRecorder::lid_shields(const Search& search, const Window& window) const {
+double BedRecorder::lid_shields(const State& state, const Window& window) const {
   const StaggeredGrid& grid = scene_.grid;
   const bool seen = scene_.fluid != FluidRung::profile && grid.periodic(0) && grid.periodic(1) && !grid.periodic(2);
   if (!seen || stress_scale_ <= 0) return 0;
-  return (window.lid_impulse / window.duration - driven_below(search)) / (area_ * stress_scale_);
+  return (window.lid_impulse / window.duration - driven_below(state)) / (area_ * stress_scale_);
 }
 
 /// What the momentum of fluid and grains did beyond the forces from outside, in units of a Shields number.
@@ -197,6 +209,15 @@ double BedRecorder::momentum_residual(const Grains& grains, const Window& window
                     scene_.frozen_depth == 0 && std::ranges::all_of(fixed, [](std::uint8_t f) { return f == 0; });
   if (!seen || stress_scale_ <= 0) return not_known;
   return std::abs(now.total - window.momentum - window.outer_impulse) / (window.duration * area_ * stress_scale_);
+}
+
+/// Of the grains that move at this instant [m/s].
+double mean_moving_speed(const Grains& grains, double slow) {
+  double sum = 0;
+  std::size_t moving = 0;
+  for (const Vec3 v : grains.velocity)
+    if (norm(v) > slow) sum += norm(v), ++moving;
+  return moving ? sum / double(moving) : not_known;
 }
 
 /// Where the bed stands now, and what moves: columns that samples and holds share.
@@ -211,12 +232,12 @@ void append_bed(const Scene& scene, const State& state, Rows& rows) {
   const bool whole = state.asleep.size() == 0;
   const ContactHistory joined = whole ? ContactHistory{} : all_contacts(state.contacts, state.asleep);
   const ContactHistory& contacts = whole ? state.contacts : joined;
-  rows.coordination.push_back(coordination(contacts, state.grains.size()));
+  rows.coordination.push_back(coordination(contacts, state.grains.fixed));
   if constexpr (requires { rows.porosity; }) {
     rows.porosity.push_back(surface.porosity);
     rows.bed_top.push_back(surface.top);
     rows.slope.push_back(surface.slope);
-    rows.bearing_coordination.push_back(bearing_coordination(contacts, state.grains.size()));
+    rows.bearing_coordination.push_back(bearing_coordination(contacts, state.grains.fixed));
   }
 }
 
@@ -224,16 +245,14 @@ void BedRecorder::record_sample(State& state, const StepHealth& health) {
   Search& search = state.search;
   const Window& window = search.sample;
   const StreamwiseMomentum now = momentum_of_(state, search.bed_height);
-  double speed = 0;
-  for (const Vec3 v : state.grains.velocity) speed += norm(v);
 
   BedRecord::Samples& row = state.record.samples;
   append_bed(scene_, state, row);
   row.time.push_back(state.clock.time);
-  row.shields_measured.push_back(measured_shields(search, window, now));
+  row.shields_measured.push_back(measured_shields(state, window, now));
   row.flux.push_back(flux(window.events, window.duration));
   row.moving_fraction.push_back(window.moving_time / window.duration);
-  row.mean_grain_speed.push_back(speed / double(std::max<std::size_t>(1, state.grains.size())));
+  row.moving_speed.push_back(mean_moving_speed(state.grains, slow_speed()));
   row.deepest_overlap.push_back(health.deepest_overlap);
   row.momentum_residual.push_back(momentum_residual(state.grains, window, now));
   record_tracks(state);
@@ -281,8 +300,8 @@ void BedRecorder::close_hold(State& state) {
   row.verdict.push_back(double(verdict_of(state)));
   row.start.push_back(search.hold_start);
   row.end.push_back(state.clock.time);
-  row.shields_measured.push_back(measured_shields(search, window, now));
-  const double lid = lid_shields(search, window), on_bed = row.shields_measured.back();
+  row.shields_measured.push_back(measured_shields(state, window, now));
+  const double lid = lid_shields(state, window), on_bed = row.shields_measured.back();
   row.shields_lid.push_back(lid);
   row.stress_residual.push_back(lid != 0 && on_bed != 0 ? std::abs(lid / on_bed - 1) : not_known);
   row.lid_speed.push_back(search.lid_speed);
@@ -328,7 +347,7 @@ void BedRecorder::record_settled_bed(State& state) const {
   constexpr double before_the_ramp = -1;
   auto& settled = state.record.settled;
   settled.solid_fraction = 1 - bed_surface(state.grains, scene_.bed.length, scene_.bed.grains.diameter).porosity;
-  settled.coordination = coordination(state.contacts, state.grains.size());
+  settled.coordination = coordination(state.contacts, state.grains.fixed);
   ProfileSums now;
   add_profile(state, now);
   record_profiles(now, scene_.bed.length, before_the_ramp, state.record.profiles);

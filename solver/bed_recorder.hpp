@@ -36,11 +36,11 @@ class BedRecorder {
   void record_tracks(State&) const;
   double outer_force(const State&, const StepBooks&) const;
   double flux(double events, double duration) const;
-  double driven_below(const Search&) const;
-  double lid_shields(const Search&, const Window&) const;
+  double driven_below(const State&) const;
+  double lid_shields(const State&, const Window&) const;
   RestRule rest_rule() const;
   void record_hops(State&) const;
-  double measured_shields(const Search&, const Window&, const StreamwiseMomentum& now) const;
+  double measured_shields(const State&, const Window&, const StreamwiseMomentum& now) const;
   double momentum_residual(const Grains&, const Window&, const StreamwiseMomentum& now) const;
 
   const Scene scene_;

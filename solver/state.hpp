@@ -197,7 +197,7 @@ void State::each_field(Self& s, Visit&& visit) {
   visit("record/samples/flux", p.flux, "1");
   visit("record/samples/moving_fraction", p.moving_fraction, "1");
   visit("record/samples/moved_grains", p.moved_grains, "1");
-  visit("record/samples/mean_grain_speed", p.mean_grain_speed, "m/s");
+  visit("record/samples/moving_speed", p.moving_speed, "m/s");
   visit("record/samples/deepest_overlap", p.deepest_overlap, "1");
   visit("record/samples/momentum_residual", p.momentum_residual, "1");
 
@@ -291,6 +291,6 @@ void State::each_field(Self& s, Visit&& visit) {
 std::string state_digest(const State&);
 
 /// Moves by hand when the same input gives other results; the changelog says why.
-inline constexpr int physics_version = 8;
+inline constexpr int physics_version = 9;
 
 }   // namespace bedload

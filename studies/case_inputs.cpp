@@ -71,6 +71,7 @@ class Resolver : InputList {
   void stiffness();
   void dem_step();
   void duration();
+  void samples_of_holds();
   double rayleigh_time_of_smallest() const;
 
   const std::filesystem::path& directory_;
@@ -298,6 +299,19 @@ void Resolver::bisection() {
             "onset.criterion = \"flux\"");
 }
 
+/// The verdict on a hold compares its thirds, sample by sample: they must be much shorter.
+void Resolver::samples_of_holds() {
+  constexpr double fewest = 9;   // three to each
+  if (!inputs.has("onset.hold")) return;
+  const auto shorter = number("drive.dwell") < number("onset.hold") ? "drive.dwell" : "onset.hold";
+  if (number("record.every") * fewest <= number(shorter) * (1 + 1e-9)) return;
+  problem("record.every",
+          fmt::format("{:.3g} s between samples: a search judges holds by them and wants {:g} at least within {} of "
+                      "{:.3g} s",
+                      number("record.every"), fewest, shorter, number(shorter)),
+          fmt::format("\"{:.3g} s\" or less, or longer holds", number(shorter) / fewest));
+}
+
 void Resolver::models() {
   if (is_auto("models.fluid")) inputs.values["models.fluid"] = std::string("box");
   else take("models.fluid");
@@ -396,6 +410,7 @@ CaseInputs Resolver::run() {
   shear();
   if (no_problems() && complete()) grains();
   if (no_problems() && complete()) wanted();
+  if (no_problems() && complete()) samples_of_holds();
   if (no_problems() && complete()) stiffness();
   if (no_problems() && inputs.has("grains.stiffness")) dem_step();
   if (no_problems() && inputs.has("steps.dem")) duration();

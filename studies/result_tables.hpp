@@ -193,7 +193,7 @@ CREATE TABLE IF NOT EXISTS samples (               -- the bed in time, means sin
   bed_height_m              REAL NOT NULL,
   roughness_m               REAL NOT NULL,
   coordination              REAL NOT NULL,
-  mean_grain_speed_m_per_s  REAL NOT NULL,
+  moving_speed_m_per_s      REAL,                  -- mean of the grains that move at this instant; NULL = none does
   deepest_overlap           REAL NOT NULL,         -- of the step sampled, per diameter
   momentum_residual         REAL,
   PRIMARY KEY (case_id, time_s)

@@ -307,7 +307,7 @@ void store_samples(Database& database, const CaseIdentity& id, const BedRecord::
     insert(database, "samples",
            {id.id, s.time[n], whole(s.hold[n]), s.shields_nominal[n], s.shields_measured[n], s.flux[n],
             s.moving_fraction[n], whole(s.moved_grains[n]), s.bed_height[n], s.roughness[n], s.coordination[n],
-            s.mean_grain_speed[n], s.deepest_overlap[n], known(s.momentum_residual[n])});
+            known(s.moving_speed[n]), s.deepest_overlap[n], known(s.momentum_residual[n])});
 }
 
 void store_tracks(Database& database, const CaseIdentity& id, const BedRecord::Tracks& t) {

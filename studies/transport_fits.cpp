@@ -32,21 +32,39 @@ Line line_through(std::span<const double> x, std::span<const double> y) {
   return line;
 }
 
-/// y against exp(-t/T), T given.
+/// Means of exp(-t/T) over windows that end at `time`, each beginning where the one before ends, the first at 0.
+std::vector<double> faded(std::span<const double> time, double decay_time) {
+  std::vector<double> means;
+  double began = 0;
+  for (const double end : time) {
+    means.push_back(decay_time / (end - began) * (std::exp(-began / decay_time) - std::exp(-end / decay_time)));
+    began = end;
+  }
+  return means;
+}
+
+/// What they change by with T.
+std::vector<double> fading(std::span<const double> time, double decay_time) {
+  std::vector<double> means;
+  double began = 0;
+  for (const double end : time) {
+    const double a = began / decay_time, b = end / decay_time;
+    means.push_back(((1 + a) * std::exp(-a) - (1 + b) * std::exp(-b)) / (end - began));
+    began = end;
+  }
+  return means;
+}
+
+/// y against what is left of exp(-t/T), T given.
 Line line_of_decay(std::span<const double> time, std::span<const double> y, double decay_time) {
-  std::vector<double> faded(time.size());
-  for (std::size_t n = 0; n < time.size(); ++n) faded[n] = std::exp(-time[n] / decay_time);
-  return line_through(faded, y);
+  return line_through(faded(time, decay_time), y);
 }
 
 /// Var(T) = residual/(N - 3)/|what dy/dT has beyond the other two parameters|^2: the Schur complement of the normal equations.
 double error_of(std::span<const double> time, const Line& line, double decay_time) {
-  std::vector<double> faded(time.size()), change(time.size());
-  for (std::size_t n = 0; n < time.size(); ++n) {
-    faded[n] = std::exp(-time[n] / decay_time);
-    change[n] = line.slope * faded[n] * time[n] / (decay_time * decay_time);
-  }
-  const double own = line_through(faded, change).residual;
+  std::vector<double> change = fading(time, decay_time);
+  for (double& c : change) c *= line.slope;
+  const double own = line_through(faded(time, decay_time), change).residual;
   return std::sqrt(line.residual / double(time.size() - 3) / own);
 }
 

@@ -17,13 +17,13 @@ struct FluxLaw {
 std::optional<FluxLaw> fit_flux_law(std::span<const double> shields, std::span<const double> transport,
                                     double exponent);
 
-/// y = last + (first - last) exp(-t/T) by least squares, T between the spacing of the samples and their span.
+/// Means of last + (first - last) exp(-t/T) over windows, by least squares, T between the spacing of the windows and their span.
 struct Decay {
   double time = 0, time_error = 0;   // T [s] and its standard error, from the scatter
   double first = 0, last = 0;        // at t = 0, and what it goes to
 };
 /// None from fewer than six samples, where y does not fall, where T is best at an end of its range or its error is as large as
-/// itself: then the samples do not resolve it. `time` [s] rises, since the beginning.
+/// itself: then the samples do not resolve it. `time` [s] rises, since the beginning; y[n] is the mean from time[n - 1], at first from 0, to time[n].
 std::optional<Decay> fit_decay(std::span<const double> time, std::span<const double> y);
 
 }   // namespace bedload

@@ -17,7 +17,7 @@ struct BedRecord {
   } settled;
   struct Samples {   // every record.every seconds
     std::vector<double> time, hold, shields_nominal, shields_measured, bed_height, roughness, coordination, flux,
-        moving_fraction, moved_grains, mean_grain_speed, deepest_overlap, momentum_residual;
+        moving_fraction, moved_grains, moving_speed, deepest_overlap, momentum_residual;
     bool operator==(const Samples&) const = default;
   } samples;
   struct Holds {   // one row per finished hold; purpose and verdict are numbers of HoldPurpose and HoldVerdict

@@ -116,32 +116,45 @@ BedSurface bed_surface(const Grains& grains, Vec3 length, double diameter) {
           .porosity = 1 - bulk};
 }
 
-double coordination(const ContactHistory& contacts, std::size_t grains) {
-  const auto first_wall = static_cast<std::uint32_t>(Wall::x_low);
-  const auto touching = std::count_if(contacts.higher.begin(), contacts.higher.end(),
-                                      [](std::uint32_t partner) { return partner < first_wall; });
-  return grains ? 2.0 * static_cast<double>(touching) / static_cast<double>(grains) : 0;
+namespace {
+
+constexpr auto first_wall = static_cast<std::uint32_t>(Wall::x_low);
+
+bool is_free(std::uint8_t fixed) { return fixed != 1; }
+
+std::int64_t free_among(std::span<const std::uint8_t> fixed) { return std::ranges::count_if(fixed, is_free); }
+
+}   // namespace
+
+double coordination(const ContactHistory& contacts, std::span<const std::uint8_t> fixed) {
+  std::int64_t touches = 0;
+  for (std::size_t c = 0; c < contacts.lower.size(); ++c)
+    if (contacts.higher[c] < first_wall)
+      touches += is_free(fixed[contacts.lower[c]]) + is_free(fixed[contacts.higher[c]]);
+  const auto grains = free_among(fixed);
+  return grains ? static_cast<double>(touches) / static_cast<double>(grains) : 0;
 }
 
-double bearing_coordination(const ContactHistory& contacts, std::size_t grains) {
+double bearing_coordination(const ContactHistory& contacts, std::span<const std::uint8_t> fixed) {
   constexpr std::uint32_t fewest = 2;   // with friction; one contact holds nothing
-  const auto first_wall = static_cast<std::uint32_t>(Wall::x_low);
-  std::vector<std::uint8_t> bears(grains, 1);
+  std::vector<std::uint8_t> bears(fixed.size(), 1);
   for (bool found = true; found;) {   // without the rattlers, others may be left with too little
-    std::vector<std::uint32_t> touches(grains, 0);
-    std::uint64_t pairs = 0;
+    std::vector<std::uint32_t> touches(fixed.size(), 0);
+    std::int64_t of_free = 0, left = 0;
     for (std::size_t c = 0; c < contacts.lower.size(); ++c) {
       const std::uint32_t a = contacts.lower[c], b = contacts.higher[c];
       const bool wall = b >= first_wall;
       if (!bears[a] || (!wall && !bears[b])) continue;
       ++touches[a];
-      if (!wall) ++touches[b], ++pairs;
+      if (!wall) ++touches[b], of_free += is_free(fixed[a]) + is_free(fixed[b]);
     }
     found = false;
-    for (std::size_t p = 0; p < grains; ++p)
+    for (std::size_t p = 0; p < fixed.size(); ++p) {
+      if (!is_free(fixed[p])) continue;
       if (bears[p] && touches[p] < fewest) bears[p] = 0, found = true;
-    const auto left = std::count(bears.begin(), bears.end(), 1);
-    if (!found) return left ? 2.0 * static_cast<double>(pairs) / static_cast<double>(left) : 0;
+      left += bears[p];
+    }
+    if (!found) return left ? static_cast<double>(of_free) / static_cast<double>(left) : 0;
   }
   return 0;
 }

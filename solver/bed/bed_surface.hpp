@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "base/vec3.hpp"
@@ -47,11 +49,11 @@ Elevations elevations(const Grains&, Vec3 length, double diameter,
 /// Surface of a bed of grains of mean diameter d [m]; layers of d/10. Layers looser than phi = 0.1 are no bed.
 BedSurface bed_surface(const Grains&, Vec3 length, double diameter);
 
-/// Mean number of grains that a grain touches; walls are not counted.
-double coordination(const ContactHistory&, std::size_t grains);
+/// Mean number of grains that a grain touches, over those that can move (fixed: 1 = never, as in Grains); walls are not counted.
+double coordination(const ContactHistory&, std::span<const std::uint8_t> fixed);
 
 /// The same among the grains that bear something: rattlers, which touch fewer than two grains or walls, are left out with
-/// their contacts, and then those that have become so; 0 where none is left.
-double bearing_coordination(const ContactHistory&, std::size_t grains);
+/// their contacts, and then those that have become so; 0 where none is left. Fixed grains bear like walls.
+double bearing_coordination(const ContactHistory&, std::span<const std::uint8_t> fixed);
 
 }   // namespace bedload

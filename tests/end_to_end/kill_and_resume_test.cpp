@@ -32,7 +32,8 @@ std::string searched() {
   text = with(text, "count = 300", "count = 200\nseed = { count = 3 }");
   text = with(text, "length = \"10 d\"", "length = \"8 d\"");
   return with(text, "[run]",
-              "[onset]\nmethod = \"bisect\"\nbracket = 0.5\nhold = \"4 td\"\ninterval = \"30 %\"\nbatch = 2\n\n[run]");
+              "[onset]\nmethod = \"bisect\"\nbracket = 0.5\nhold = \"4 td\"\ninterval = \"30 %\"\nbatch = "
+              "2\n\n[record]\nevery = \"0.4 td\"\n\n[run]");
 }
 
 /// The same of beds that are sheared before.

@@ -257,7 +257,7 @@ TEST(Experiment, ShearsASettledBedAndLetsItComeToRestBeforeTheHoldsBegin) {
   const auto& settled = state.record.settled;
   EXPECT_GT(settled.shear_flux, 0);   // theta = 1.5 moves a bed
   EXPECT_DOUBLE_EQ(settled.solid_fraction, 1 - bed_surface(state.grains, bed.scene.bed.length, d).porosity);
-  EXPECT_DOUBLE_EQ(settled.coordination, coordination(state.contacts, state.grains.size()));
+  EXPECT_DOUBLE_EQ(settled.coordination, coordination(state.contacts, state.grains.fixed));
 
   // And every hold that branches begins with this bed.
   const State rested = state;
@@ -287,7 +287,7 @@ TEST(Experiment, WithoutAShearRemembersThePouredBedThatItsHoldsBeginWith) {
   bed_only.bed_only = true;
   const State poured = run(bed_only), state = run(scene);
   EXPECT_EQ(state.record.settled.shear_flux, 0);
-  EXPECT_DOUBLE_EQ(state.record.settled.coordination, coordination(poured.contacts, poured.grains.size()));
+  EXPECT_DOUBLE_EQ(state.record.settled.coordination, coordination(poured.contacts, poured.grains.fixed));
   EXPECT_GT(state.record.settled.solid_fraction, 0.3);
 }
 

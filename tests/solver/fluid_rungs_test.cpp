@@ -181,6 +181,25 @@ TEST(FluidRungs, AProfileDoesNotAnswerToGrainsAndSaysThatItsMomentumIsNotKnown) 
   EXPECT_DOUBLE_EQ(plane_means(state.fluid.velocity.x, scene.grid).front(), 0);   // deep in the bed
 }
 
+/// Near the bed the profiles of a lid and of a gradient are alike, and so must be what their beds measure: the gradient's fluid in the bed stands
+/// still and hands nothing on, the volume of the grains feels it in Model A.
+TEST(FluidRungs, AProfilesBedMeasuresTheSameUnderALidAndAGradient) {
+  const auto measured = [](bool model_a, FlowRamp::Kind kind) {
+    Scene scene = sheared(FluidRung::profile, 0.05, fixed_bed(1), in_bed);
+    scene.terms.pressure_gradient = scene.terms.viscous_stress = model_a;
+    scene.drive.kind = kind;
+    if (kind == FlowRamp::Kind::pressure) scene.bed.top = scene.grid.top = Top::free_slip;
+    scene.drive.dwell = 20 * scene.steps.fluid_interval;
+    Experiment experiment(scene);
+    State state = experiment.begin();
+    while (!Experiment::finished(state)) EXPECT_EQ(ailment(experiment.step(state)), "");
+    return state.record.holds.shields_measured.at(0);
+  };
+  for (const bool model_a : {true, false})
+    EXPECT_NEAR(measured(model_a, FlowRamp::Kind::pressure) / measured(model_a, FlowRamp::Kind::lid), 1, 0.05)
+        << model_a;
+}
+
 /// One weightless grain in the middle of 20 x 20 x 20 d of layers of d/5.
 struct Alone {
   Alone(FluidRung rung, Top top, double viscosity)

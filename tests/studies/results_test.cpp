@@ -62,11 +62,13 @@ State finished_state() {
   auto& s = state.record.samples;
   for (int n = 1; n <= 10; ++n) {   // 3 + 0.2 n [s]: 60 moving grains of 244.46 die away within 0.5 s
     for (auto* column : {&s.shields_nominal, &s.shields_measured, &s.flux, &s.moved_grains, &s.bed_height, &s.roughness,
-                         &s.coordination, &s.mean_grain_speed, &s.deepest_overlap, &s.momentum_residual})
+                         &s.coordination, &s.moving_speed, &s.deepest_overlap, &s.momentum_residual})
       column->push_back(n);
     s.time.push_back(3 + 0.2 * n);
     s.hold.push_back(3);
-    s.moving_fraction.push_back(60 * std::exp(-0.2 * n / 0.5) / surface_grains(small_scene()));
+    const double mean =
+        (std::exp(-0.2 * (n - 1) / 0.5) - std::exp(-0.2 * n / 0.5)) / (0.2 / 0.5);   // since the one before
+    s.moving_fraction.push_back(60 * mean / surface_grains(small_scene()));
   }
   state.clock.retries = 3;
   state.record.health.hold = {0};

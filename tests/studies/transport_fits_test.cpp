@@ -50,7 +50,15 @@ TEST(FluxLaw, StatesTheScatterOfRepeatedFits) {
 
 TEST(Decay, ReturnsTheTimeThatMadeTheSamples) {
   std::vector<double> time, y;
-  for (int n = 1; n <= 25; ++n) time.push_back(0.1 * n), y.push_back(5 + 30 * std::exp(-time.back() / 0.7));
+  double began = 0;
+  for (int n = 1; n <= 25; ++n) {   // windows of 0.1 and 0.2 by turns
+    time.push_back(began + (n % 2 ? 0.1 : 0.2));
+    constexpr int parts = 1000;
+    double mean = 0;
+    for (int k = 0; k < parts; ++k)
+      mean += (5 + 30 * std::exp(-(began + (k + 0.5) / parts * (time.back() - began)) / 0.7)) / parts;
+    y.push_back(mean), began = time.back();
+  }
   const auto decay = fit_decay(time, y);
   ASSERT_TRUE(decay);
   EXPECT_NEAR(decay->time, 0.7, 1e-6);

@@ -63,7 +63,7 @@ Statistics statistics_of(const BedScene& scene, const Grains& grains, const Cont
     return volume / (scene.length.x * scene.length.y * (high - low));
   };
   const double top = surface.height;
-  return {1 - surface.porosity,         coordination(contacts, grains.size()),
+  return {1 - surface.porosity,         coordination(contacts, grains.fixed),
           carriers.coordination,        1 - carriers.share,
           surface.roughness / d,        top / d,
           between(0, 0.5 * d),          between(0.5 * d, d),

@@ -111,17 +111,28 @@ TEST(BearingCoordination, LeavesOutRattlersAndWhatHangsOnThem) {
   const auto bottom = static_cast<std::uint32_t>(Wall::z_low);
   contacts.lower = {0, 0, 0, 1, 2, 3, 5, 6};
   contacts.higher = {1, 2, 5, 2, 3, 4, bottom, bottom};
-  EXPECT_DOUBLE_EQ(bearing_coordination(contacts, 8), 2.0 * 4 / 4);   // 0, 1, 2, 5
-  EXPECT_EQ(bearing_coordination({}, 3), 0);
-  EXPECT_EQ(bearing_coordination({}, 0), 0);
+  EXPECT_DOUBLE_EQ(bearing_coordination(contacts, std::vector<std::uint8_t>(8)), 2.0 * 4 / 4);   // 0, 1, 2, 5
+  EXPECT_EQ(bearing_coordination({}, std::vector<std::uint8_t>(3)), 0);
+  EXPECT_EQ(bearing_coordination({}, std::vector<std::uint8_t>()), 0);
 }
 
 TEST(Coordination, CountsBothPartnersAndNoWalls) {
   ContactHistory contacts;
   contacts.lower = {0, 0, 1, 2};
   contacts.higher = {1, 2, 2, static_cast<std::uint32_t>(Wall::z_low)};
-  EXPECT_DOUBLE_EQ(coordination(contacts, 4), 6.0 / 4);
-  EXPECT_EQ(coordination({}, 0), 0);
+  EXPECT_DOUBLE_EQ(coordination(contacts, std::vector<std::uint8_t>(4)), 6.0 / 4);
+  EXPECT_EQ(coordination({}, std::vector<std::uint8_t>()), 0);
+}
+
+/// A bead (3) in a pocket of three fixed grains, one (4) on a single fixed grain, two frozen ones (5, 6) that only wait.
+TEST(Coordination, IsOfGrainsThatCanMoveAndFixedOnesBear) {
+  ContactHistory contacts;
+  contacts.lower = {0, 1, 2, 2, 3, 5};
+  contacts.higher = {3, 3, 3, 4, 5, 6};
+  const std::vector<std::uint8_t> fixed{1, 1, 1, 0, 0, 2, 2};
+  EXPECT_DOUBLE_EQ(coordination(contacts, fixed), (4 + 1 + 2 + 1) / 4.0);
+  EXPECT_DOUBLE_EQ(bearing_coordination(contacts, fixed), 3.0)
+      << "6 hangs on 5, 5 then on the bead alone, 4 is a rattler";
 }
 
 }   // namespace
