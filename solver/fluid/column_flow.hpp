@@ -1,6 +1,6 @@
 // The flow of a column: one velocity u(z) along x, averaged over the planes of a box that is periodic in x and y.
 //
-//   eps du/dt = eps d/dz[nu d(eps u + phi v)/dz] + d/dz(eps nu_t du/dz) + eps (g sin(alpha) + G/rho_f) - exchange
+//   eps du/dt = eps d/dz[nu d(eps u + phi v)/dz] + d/dz(eps nu_t du/dz) + eps G/rho_f - exchange
 //
 // the volume-averaged balance of Revil-Baudard & Chauchat (J. Fluid Mech. 2013) and Maurin, Chauchat, Chareyre & Frey
 // (Phys. Fluids 27, 2015, 113302), in the form of Model A: docs/physics_fluid.md, section 6.
@@ -41,7 +41,7 @@ struct LayerExchange {
 };
 
 struct ColumnDrive {
-  double acceleration = 0;   // g sin(alpha) + G/rho_f [m/s2]
+  double acceleration = 0;   // G/rho_f, of a stream down a slope g sin(alpha) [m/s2]
   double lid_speed = 0;      // [m/s]; read only under a lid
 };
 
@@ -72,8 +72,8 @@ class ColumnFlow {
   /// Stresses of a flow as it stands, without a step: what stress_divergence(), stress() and clamps() tell of it next.
   void measure(std::span<const double> u, const SolidLayers&, double lid_speed);
 
-  /// The fluid that grains displace on their way up or down takes its momentum along: sum eps u stays, a uniform flow too,
-  /// and u makes no new extremes. phi before and after the grains moved, of the same solid volume.
+  /// The fluid that grains displace on their way up or down takes its momentum along: sum eps u stays, a uniform flow too where eps is
+  /// not clamped, and u makes no new extremes. phi before and after the grains moved, of the same solid volume.
   void carry(std::span<double> u, std::span<const double> before, std::span<const double> after);
 
   /// Of the last step or measure(), by layer [m/s2]: d/dz of the viscous stress per fluid density, of which a grain feels its volume times;
