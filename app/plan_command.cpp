@@ -203,14 +203,13 @@ void print_summary(const Study& study, const Plan& plan, const fs::path& results
   fmt::print("{}: {} ({} new, {} kept, {} extended; {} done), {} dropped, {}; results in {}\n", study.name,
              counted(plan.cases.size(), "case"), count(Fate::fresh), count(Fate::kept), count(Fate::extended), done,
              plan.dropped.size(), counted(plan.beds.size(), "bed"), results.string());
-  fmt::print(
-      "about {:.2g} core-hours for whole ramps (a ramp ends two holds after onset), about {} on {}; about {:.2g} "
-      "MB "
-      "on disk\n\n",
-      core_seconds / 3600,
-      duration_text(core_seconds /
-                    std::max<double>(1, std::min<double>(cores, static_cast<double>(plan.cases.size())))),
-      counted(cores, "core"), bytes / 1e6);
+  const bool searches = std::ranges::any_of(
+      plan.cases, [](const PlannedCase& c) { return c.one.scene.onset.method == Onset::Method::bisect; });
+  fmt::print("about {:.2g} core-hours for {}, about {} on {}; about {:.2g} MB on disk\n\n", core_seconds / 3600,
+             searches ? "searches of usual length" : "whole ramps (a ramp ends two holds after onset)",
+             duration_text(core_seconds /
+                           std::max<double>(1, std::min<double>(cores, static_cast<double>(plan.cases.size())))),
+             counted(cores, "core"), bytes / 1e6);
   if (const auto chosen = accuracy_of(study)) fmt::print("{}\n\n", wrapped(chosen->in_words(), 0));
 }
 

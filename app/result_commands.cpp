@@ -18,6 +18,7 @@
 #include "studies/case_file.hpp"
 #include "studies/report.hpp"
 #include "studies/report_figures.hpp"
+#include "studies/results.hpp"
 #include "studies/study_directory.hpp"
 #include "studies/study_file.hpp"
 #include "studies/svg_plot.hpp"
@@ -117,6 +118,8 @@ int curve_command(const StudyOptions& options) {
                    : options.form == Form::svg
                        ? standing_alone(of_one_grain(curve) ? side_by_side_figure(curve) : threshold_figure(curve))
                        : curve_as_table(curve, error_budget(results)) + motion_as_table(motion_measures(results)));
+  const std::string unsteady = options.form == Form::table ? unsteady_holds(results) : "";
+  if (!unsteady.empty()) fmt::print("warning: {}\n", unsteady);
   return 0;
 }
 

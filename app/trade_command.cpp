@@ -50,6 +50,8 @@ int trade_command(RunOptionsOfCommand options, std::optional<double> core_hours)
   if (!complete) return code;
   auto trade = measured_trade(open_results(place), study, cases);
   add_lone_falls(trade, cases);
+  Database results(place.directory / "study.db", Database::Mode::write);
+  store_trade(results, trade);
   publish(place.directory / "trade.json", trade_as_json(trade));
   publish(place.directory / "trade.svg", standing_alone(trade_figure(trade)));
   fmt::print("{}", options.study.form == Form::json ? trade_as_json(trade) : trade_as_table(trade));

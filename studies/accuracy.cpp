@@ -123,7 +123,8 @@ AccuracyChoice choice_from(const Study& study, const json& trade, const std::str
   made.from = file, made.target = target, made.setting = chosen.at("name");
   made.settings = settings_in(trade.at("finest"), file);
   for (auto& [key, setting] : settings_in(chosen.at("changes"), file)) made.settings[key] = setting;
-  made.error = found == &settings.at(0) ? 0 : *error_of(chosen, 0);
+  made.finest = found == &settings.at(0);
+  made.error = made.finest ? 0 : *error_of(chosen, 0);
   made.fluid_is_named = rule.names_its_own();
   const double seconds = chosen.at("core_seconds");
   made.cost = seconds / settings.at(0).at("core_seconds").get<double>();
@@ -144,13 +145,18 @@ std::string AccuracyChoice::in_words() const {
     list += fmt::format("{}{} = {}", list.empty() ? "" : ", ", key, as_toml(value));
   const auto rung =
       fluid == "column" && !fluid_is_named ? "; a column, as x and y are periodic and the bed is level" : "";
-  return fmt::format(
-      "accuracy {:.3g} %: setting {} of {}, theta_c measured to be within {:.2g} % of the finest, for {:.2g} of its "
-      "time{}: {}{}{}",
-      100 * target, setting, from, 100 * error, cost, rung, list, passed_over.empty() ? "" : ". " + passed_over,
-      version == physics_version
-          ? ""
-          : fmt::format(". It was measured under physics_version {}; this bedload's is {}", version, physics_version));
+  const auto how = finest ? fmt::format("nothing cheaper in {} is known to be so near; its finest setting", from)
+                          : fmt::format(
+                                "setting {} of {}, theta_c measured to be within {:.2g} % of the finest, for "
+                                "{:.2g} of its time",
+                                setting, from, 100 * error, cost);
+  const auto of_old = version == physics_version ? ""
+                                                 : fmt::format(
+                                                       ". It was measured under physics_version {}; this bedload's "
+                                                       "is {}",
+                                                       version, physics_version);
+  return fmt::format("accuracy {:.3g} %: {}{}: {}{}{}", 100 * target, how, rung, list,
+                     passed_over.empty() ? "" : ". " + passed_over, of_old);
 }
 
 std::optional<AccuracyChoice> chosen_accuracy(const Study& study, const TableReader& read_table, Problems& problems) {

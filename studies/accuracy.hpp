@@ -16,6 +16,7 @@ struct AccuracyChoice {
   std::string fluid = "box";     // its rung of the fluid
   bool fluid_is_named = false;   // by the study: not for the trade to choose
   std::string passed_over;       // a cheaper setting that is good enough but for its rung, and why; empty: none
+  bool finest = false;           // the trade's own measure: nothing cheaper is good enough
   double error = 0;              // of theta_c against the finest setting, or its bound [-]
   double target = 0;             // [-]
   double cost = 1;               // core seconds relative to the finest setting

@@ -15,6 +15,7 @@
 #include "studies/published_curves.hpp"
 #include "studies/report_figures.hpp"
 #include "studies/report_style.hpp"
+#include "studies/results.hpp"
 #include "studies/svg_plot.hpp"
 #include "studies/theme.hpp"
 
@@ -49,14 +50,15 @@ std::string curve_table(const std::vector<ThresholdPoint>& curve) {
 }
 
 std::string threshold_section(const std::vector<ThresholdPoint>& curve, const std::vector<BudgetEntry>& budget,
-                              std::size_t finished) {
+                              const std::string& unsteady, std::size_t finished) {
   const auto none = finished == 0 ? "<p>No case has finished yet.</p>" : "<p>No finished case seeks an onset.</p>";
   const std::string body =
       curve.empty()
           ? scrolling(threshold_figure(curve)) + none
           : scrolling(threshold_figure(curve)) + (of_one_grain(curve) ? scrolling(side_by_side_figure(curve)) : "") +
                 curve_table(curve) + "<p class='caption'>" +
-                escaped(onset_in_words(curve) + "; systematic: " + budget_in_words(budget)) + "</p>\n";
+                escaped(onset_in_words(curve) + "; systematic: " + budget_in_words(budget)) + "</p>\n" +
+                (unsteady.empty() ? "" : "<p class='caption'>" + escaped(unsteady) + "</p>\n");
   return section(
       std::ranges::any_of(curve, is_screening) ? "Threshold of motion: screening by ramps" : "Threshold of motion",
       "θ = τ<sub>b</sub>/((ρ<sub>p</sub> − ρ<sub>f</sub>) g d) above which half of all packings begin to move, by a "
@@ -324,11 +326,11 @@ std::string report_html(const Database& database, const ReportRequest& request) 
              "header>\n",
              title, theme_style(), summary(curve, cases.size()), request.written.empty() ? "" : " · ",
              escaped(request.written), report_style) +
-         threshold_section(curve, error_budget(database), cases.size()) + trade_section(request.trade) +
-         transport_section(database) + flux_section(database, cases) + motion_section(database, cases) +
-         bed_section(request.beds) + history_section(database, cases) + profile_section(database, cases) +
-         model_section(database) + health_section(database) + provenance_section(database, request) +
-         "</main></body></html>\n";
+         threshold_section(curve, error_budget(database), unsteady_holds(database), cases.size()) +
+         trade_section(request.trade) + transport_section(database) + flux_section(database, cases) +
+         motion_section(database, cases) + bed_section(request.beds) + history_section(database, cases) +
+         profile_section(database, cases) + model_section(database) + health_section(database) +
+         provenance_section(database, request) + "</main></body></html>\n";
 }
 
 }   // namespace bedload

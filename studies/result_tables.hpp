@@ -273,6 +273,29 @@ CREATE TABLE IF NOT EXISTS error_sources (         -- per source of the budget, 
   size                      REAL                   -- what counts: the difference, or the farther bound of one not seen
 ) STRICT;
 
+CREATE TABLE IF NOT EXISTS trades (                -- per setting of a study with [[trade]], written by `bedload trade`
+  setting                   TEXT PRIMARY KEY,
+  packings                  INTEGER NOT NULL,      -- with results
+  thresholds                INTEGER NOT NULL,      -- of them with a theta_c that is no bound
+  core_s                    REAL,                  -- of one packing; NULL = no result
+  frontier                  INTEGER NOT NULL,      -- 1 = none is as cheap and as good in theta_c
+  shields_difference        REAL,                  -- to the finest setting, relative, and where it lies with 95 %
+  shields_lower             REAL,
+  shields_upper             REAL,
+  flux_difference           REAL,                  -- relative
+  flux_lower                REAL,
+  flux_upper                REAL,
+  height_d_difference       REAL,                  -- in diameters
+  height_d_lower            REAL,
+  height_d_upper            REAL,
+  porosity_difference       REAL,
+  porosity_lower            REAL,
+  porosity_upper            REAL,
+  fall_difference           REAL,                  -- relative
+  fall_lower                REAL,
+  fall_upper                REAL
+) STRICT;
+
 CREATE TABLE IF NOT EXISTS threshold_curve (       -- per parameter set, over its seeds
   label                     TEXT NOT NULL,
   diameter_m                REAL NOT NULL,

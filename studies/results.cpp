@@ -180,7 +180,8 @@ void store_searched(Database& database, const CaseIdentity& id, const Scene& sce
 }
 
 /// Thresholds beside the study's own: first grain, 1 % and 10 % of the surface moved, and the reference transport
-/// W* = q*/theta^1.5 = 0.002 (Parker). Over all holds of a ramp; of a search those of purpose onset, which begin alike.
+/// W* = q*/theta^1.5 = 0.002 (Parker). Over the levels of a ramp or staircase and the holds of a search that begin from the settled bed; where
+/// one goes on because it was undecided, grains have been counted before.
 void store_measures_of_motion(Database& database, const CaseIdentity& id, const Scene& scene, const BedRecord& record) {
   const BedRecord::Holds& h = record.holds;
   const Scales scales(scene);
@@ -188,8 +189,10 @@ void store_measures_of_motion(Database& database, const CaseIdentity& id, const 
   std::vector<double> shields, grains, fraction, reference;
   for (std::size_t k = 0; k < h.hold.size(); ++k) {
     const auto purpose = static_cast<HoldPurpose>(h.purpose[k]);
-    if (purpose != HoldPurpose::ramp && purpose != HoldPurpose::onset) continue;
-    if (!(h.shields_measured[k] > 0)) continue;
+    const bool of_onset = purpose == HoldPurpose::onset;
+    if (purpose != HoldPurpose::ramp && purpose != HoldPurpose::staircase && !of_onset) continue;
+    const bool goes_on = of_onset && k > 0 && h.purpose[k - 1] == h.purpose[k] && h.level[k - 1] == h.level[k];
+    if (goes_on || !(h.shields_measured[k] > 0)) continue;
     shields.push_back(h.shields_measured[k]);
     grains.push_back(h.moved_grains[k]);
     fraction.push_back(h.moved_grains[k] / surface);
@@ -222,7 +225,7 @@ void store_flux_law(Database& database, const CaseIdentity& id, const Scene& sce
     transport.push_back(scales.transport(h.flux[k], per_area));
   }
   const auto law = fit_flux_law(shields, transport, scene.terms.turbulence ? 1.5 : 3);
-  if (!law || !std::isfinite(law->threshold)) return;
+  if (!law || !(law->threshold > 0)) return;   // below zero: the holds are too few or too near each other to tell
   insert(database, "flux_laws",
          {id.id, law->exponent, law->threshold, law->threshold_error, law->coefficient, law->coefficient_error,
           whole(std::uint64_t(shields.size()))});

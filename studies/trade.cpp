@@ -14,6 +14,7 @@
 #include "solver/scene_numbers.hpp"
 #include "studies/database_values.hpp"
 #include "studies/plan.hpp"
+#include "studies/results.hpp"
 #include "studies/study_keys.hpp"
 #include "studies/threshold_curve.hpp"
 
@@ -225,6 +226,21 @@ void add_lone_falls(Trade& trade, const std::vector<Case>& cases) {
     setting.fall_speeds = lone_fall_speeds(std::ranges::find(cases, setting.name, name_in_trade)->scene);
     setting.fall = fall_difference(setting, trade.settings.front());
   }
+}
+
+void store_trade(Database& database, const Trade& trade) {
+  create_result_tables(database);
+  Database::Transaction transaction(database);
+  database.execute("DELETE FROM trades");
+  for (const TradeSetting& one : trade.settings) {
+    std::vector<Value> row{one.name, static_cast<std::int64_t>(one.packings), static_cast<std::int64_t>(one.thresholds),
+                           real_or_null(one.core_seconds), std::int64_t{one.frontier}};
+    std::string places = "?, ?, ?, ?, ?";
+    for (const PairedDifference& d : {one.theta, one.flux, one.height, one.porosity, one.fall})
+      for (const double number : {d.mean, d.low, d.high}) row.push_back(real_or_null(number)), places += ", ?";
+    database.execute("INSERT INTO trades VALUES (" + places + ")", row);
+  }
+  transaction.commit();
 }
 
 }   // namespace bedload

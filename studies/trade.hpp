@@ -53,6 +53,9 @@ Trade measured_trade(const Database&, const Study&, const std::vector<Case>&);
 /// Lets a grain fall in the box of every setting that has results.
 void add_lone_falls(Trade&, const std::vector<Case>&);
 
+/// Into table trades, in place of what is there.
+void store_trade(Database&, const Trade&);
+
 /// The table's heads, then a row per setting, cheapest first, a star before the names of the frontier. Lone falls only where there are any.
 std::vector<std::vector<std::string>> trade_cells(const Trade&);
 /// For people: a line per setting, cheapest first, the frontier marked.

@@ -32,6 +32,9 @@ TEST(Trade, MeasuresWhatAnotherStudyThenFollows) {
   const auto json = nlohmann::json::parse(read_text(here.path() / "trade" / "trade.json"));
   EXPECT_EQ(json["settings"][1]["changes"]["drive.dwell"], "\"2 td\"");
   EXPECT_LT(json["settings"][1]["core_seconds"].get<double>(), json["settings"][0]["core_seconds"].get<double>());
+  const auto asked = bedload(
+      here.path(), {"query", "trade.toml", "SELECT setting, frontier FROM trades WHERE core_s > 0 ORDER BY core_s"});
+  EXPECT_NE(asked.out.find("short    1"), std::string::npos) << asked.out;
   EXPECT_TRUE(read_text(here.path() / "trade" / "trade.svg").starts_with("<svg xmlns="));
   EXPECT_NE(read_text(here.path() / "trade" / "report.html").find("Trade of speed against accuracy"),
             std::string::npos);
@@ -41,6 +44,10 @@ TEST(Trade, MeasuresWhatAnotherStudyThenFollows) {
   const auto plan = bedload(here.path(), {"plan", "tiny.toml"});
   EXPECT_EQ(plan.code, 0) << plan.err;
   EXPECT_NE(plan.out.find("accuracy 500 %: setting short of trade/trade.json"), std::string::npos) << plan.out;
+  const auto told = nlohmann::json::parse(bedload(here.path(), {"plan", "tiny.toml", "--json"}).out);
+  const double predicted = told[0]["core_hours"].get<double>() * 3600;
+  EXPECT_NEAR(predicted / json["settings"][1]["core_seconds"].get<double>(), 1, 0.3)
+      << "the same scene, another packing";
   EXPECT_EQ(bedload(here.path(), {"run", "tiny.toml", "--prepare"}).code, 0);
   EXPECT_EQ(bedload(here.path(), {"plan", "tiny"}).code, 0) << "the result directory stands by itself";
 }

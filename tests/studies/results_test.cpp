@@ -1,4 +1,5 @@
 // A final state becomes rows: all of them, once, and the numbers derived from them.
+#include "solver/bed/onset_search.hpp"
 #include "studies/results.hpp"
 
 #include <gtest/gtest.h>
@@ -166,6 +167,24 @@ TEST_F(ResultsTest, HoldTheShieldsNumbersAtWhichGrainsHadMoved) {
   EXPECT_EQ(number("SELECT count(*) FROM thresholds WHERE criterion = 'moved_fraction' AND value = 0.1 AND status = "
                    "'censored_above' AND shields IS NULL AND shields_lower = 0.4"),
             1);
+}
+
+TEST_F(ResultsTest, CountMovedGrainsOnTheStairsOfASearchToo) {
+  State state = finished_state();   // stairs at 0.1 and 0.2, holds from the settled bed at 0.3 and, going on, 0.4
+  state.record.holds.purpose = {1, 1, 2, 2};
+  ASSERT_EQ(HoldPurpose(1), HoldPurpose::staircase);
+  ASSERT_EQ(HoldPurpose(2), HoldPurpose::onset);
+  state.record.holds.level = {0.1, 0.2, 0.3, 0.3};
+  Scene scene = small_scene();
+  scene.onset.method = Onset::Method::bisect;
+  store_results(database_, {"id2", "d0.5mm-s2", "set1", "d0.5mm", 2}, scene, state, {});
+  const auto of = [&](const std::string& what) { return number("SELECT " + what + " AND case_id = 'id2'"); };
+  EXPECT_EQ(of("shields_lower FROM thresholds WHERE criterion = 'moved_grains'"), 0.1 * 1);
+  EXPECT_EQ(of("shields_upper FROM thresholds WHERE criterion = 'moved_grains'"), 0.1 * 2);
+  EXPECT_EQ(of("count(*) FROM thresholds WHERE criterion = 'moved_fraction' AND value = 0.01 AND status = "
+               "'censored_above' AND shields_lower = 0.1 * 3"),
+            1)
+      << "three grains of 244 moved in what went on alone";
 }
 
 TEST_F(ResultsTest, HoldTheShieldsNumberOfTheReferenceTransport) {
