@@ -17,7 +17,7 @@ const std::string searched_study = with(
     with(
         with(with(with(tiny_study, "[\"2000 kg/m3\", \"3000 kg/m3\"]", "\"3000 kg/m3\""), "count = 300", "count = 100"),
              "length = \"10 d\"", "length = \"6 d\""),
-        "ratio = 1.5, steps = 4", "ratio = 1.5, steps = 6"),
+        "from = 0.1, ratio = 1.5, steps = 4", "from = 0.03, ratio = 1.5, steps = 9"),
     "[run]",
     "[onset]\nmethod = \"bisect\"\nbracket = 0.3\nhold = \"20 td\"\nbudget = [\"bracket\", \"mesh\"]\n[record]\n"
     "every = \"0.5 td\"\n[run]");
