@@ -1,6 +1,6 @@
 // A final state becomes rows: all of them, once, and the numbers derived from them.
-#include "solver/bed/onset_search.hpp"
 #include "studies/results.hpp"
+#include "solver/bed/onset_search.hpp"
 
 #include <gtest/gtest.h>
 
