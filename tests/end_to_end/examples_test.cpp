@@ -53,7 +53,7 @@ TEST(Examples, ThresholdsOfLaminarBedsSayWhereTheyAreOutOfRange) {
                  "sensitivity-laminar-stiff-s3 new 300",
                  {bottom, lift, left_out, left_out}},
         Expected{"trade-laminar",
-                 "40 cases (40 new",
+                 "42 cases (42 new",
                  "trade-laminar-dem0.45R-s2 new 300",
                  {bottom, lift, left_out, left_out, left_out}},
         Expected{"slope-threshold", "16 cases (16 new", "slope8deg 0.000370766 m 2000 kg/m3 1e-05 m2/s", {lift}}}) {
